@@ -1,0 +1,154 @@
+//! NURBS curves in two and three dimensions.
+
+use super::basis::{KnotVector, MAX_DEGREE};
+use crate::error::{Error, Result};
+use glam::{DVec2, DVec3};
+use std::ops::{Add, Div, Mul, Sub};
+
+/// A point of the plane or of space.
+pub trait Point:
+    Copy
+    + Default
+    + PartialEq
+    + std::fmt::Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+    + Send
+    + Sync
+{
+    /// Scalar product.
+    fn dot(self, other: Self) -> f64;
+    /// Whether every coordinate is finite.
+    fn is_finite(self) -> bool;
+    /// Euclidean length.
+    fn length(self) -> f64 {
+        self.dot(self).sqrt()
+    }
+}
+
+impl Point for DVec2 {
+    fn dot(self, other: Self) -> f64 {
+        DVec2::dot(self, other)
+    }
+    fn is_finite(self) -> bool {
+        DVec2::is_finite(self)
+    }
+}
+
+impl Point for DVec3 {
+    fn dot(self, other: Self) -> f64 {
+        DVec3::dot(self, other)
+    }
+    fn is_finite(self) -> bool {
+        DVec3::is_finite(self)
+    }
+}
+
+/// A NURBS curve; without weights a B-spline curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NurbsCurve<P: Point> {
+    knots: KnotVector,
+    poles: Vec<P>,
+    weights: Option<Vec<f64>>,
+}
+
+/// Checks poles and weights against the number of basis functions.
+pub(super) fn check_poles<P: Point>(expected: usize, poles: &[P], weights: Option<&[f64]>) -> Result<()> {
+    let fail = |why: String| Err(Error::Spline { why });
+    if poles.len() != expected {
+        return fail(format!("{} poles where the knots ask for {expected}", poles.len()));
+    }
+    if let Some(i) = poles.iter().position(|p| !p.is_finite()) {
+        return fail(format!("pole {} is not finite", i + 1));
+    }
+    if let Some(w) = weights {
+        if w.len() != expected {
+            return fail(format!("{} weights for {expected} poles", w.len()));
+        }
+        if let Some(i) = w.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
+            return fail(format!("weight {} is {}: weights must be positive", i + 1, w[i]));
+        }
+    }
+    Ok(())
+}
+
+impl<P: Point> NurbsCurve<P> {
+    /// A curve from knots, poles and, if rational, weights.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] when the counts disagree or a value is not usable.
+    pub fn new(knots: KnotVector, poles: Vec<P>, weights: Option<Vec<f64>>) -> Result<Self> {
+        check_poles(knots.len(), &poles, weights.as_deref())?;
+        Ok(Self { knots, poles, weights })
+    }
+
+    /// The knots.
+    pub fn knots(&self) -> &KnotVector {
+        &self.knots
+    }
+
+    /// The poles.
+    pub fn poles(&self) -> &[P] {
+        &self.poles
+    }
+
+    /// The weights, if rational.
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
+    }
+
+    /// The point at `t`; outside the domain the end spans are continued.
+    pub fn point(&self, t: f64) -> P {
+        let p = self.knots.degree();
+        let span = self.knots.span(t);
+        let mut n = [0.0; MAX_DEGREE + 1];
+        self.knots.basis(span, t, &mut n);
+        let first = span - p;
+        let mut sum = P::default();
+        match &self.weights {
+            None => {
+                for j in 0..=p {
+                    sum = sum + self.poles[first + j] * n[j];
+                }
+                sum
+            }
+            Some(w) => {
+                let mut total = 0.0;
+                for j in 0..=p {
+                    let b = n[j] * w[first + j];
+                    sum = sum + self.poles[first + j] * b;
+                    total += b;
+                }
+                sum / total
+            }
+        }
+    }
+
+    /// The point and the first two derivatives at `t` (A4.2).
+    pub fn derivatives(&self, t: f64) -> [P; 3] {
+        let p = self.knots.degree();
+        let span = self.knots.span(t);
+        let mut n = [0.0; 3 * (MAX_DEGREE + 1)];
+        self.knots.basis_derivatives(span, t, 2, &mut n);
+        let first = span - p;
+        let mut a = [P::default(); 3];
+        let mut w = [0.0; 3];
+        for d in 0..3 {
+            for j in 0..=p {
+                let weight = self.weights.as_ref().map_or(1.0, |w| w[first + j]);
+                let b = n[d * (p + 1) + j] * weight;
+                a[d] = a[d] + self.poles[first + j] * b;
+                w[d] += b;
+            }
+        }
+        if self.weights.is_none() {
+            return a;
+        }
+        let c0 = a[0] / w[0];
+        let c1 = (a[1] - c0 * w[1]) / w[0];
+        let c2 = (a[2] - c1 * (2.0 * w[1]) - c0 * w[2]) / w[0];
+        [c0, c1, c2]
+    }
+}
