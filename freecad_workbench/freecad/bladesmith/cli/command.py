@@ -9,7 +9,7 @@ import os
 import signal
 import sys
 import traceback
-from typing import List, Optional
+from typing import Optional
 
 from .. import __version__
 from ..model.options import FIELD_UNITS_MM
@@ -21,7 +21,7 @@ exit codes: 0 success, 2 unusable input, 3 the result misses --tolerance (it is 
 1 anything else. Lengths are millimetres. BLADESMITH_DEBUG=1 shows where an error came from."""
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: Optional[list[str]] = None) -> int:
     """Runs one command and returns its exit code."""
     signal.signal(signal.SIGTERM, _interrupt)
     options = _parser().parse_args(arguments)

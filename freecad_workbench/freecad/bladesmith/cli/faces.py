@@ -3,16 +3,15 @@
 import csv
 import difflib
 import re
-from typing import List, Optional, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Optional
 
 from ..native.errors import InputError
 
 _NUMBER = re.compile(r"(?:Face)?(\d+)", re.IGNORECASE)
 
 
-def selected(
-    option: str, values: Optional[Sequence[str]], names: Sequence[str]
-) -> Tuple[int, ...]:
+def selected(option: str, values: Optional[Sequence[str]], names: Sequence[str]) -> tuple[int, ...]:
     """Numbers, from 1, of the faces that ``values`` of ``option`` list.
 
     ``names`` are those of the STEP file by index. A name wins over a number, and selects every
@@ -30,7 +29,7 @@ def selected(
     return tuple(sorted(found))
 
 
-def _numbers(option: str, word: str, names: Sequence[str]) -> List[int]:
+def _numbers(option: str, word: str, names: Sequence[str]) -> list[int]:
     named = [index for index, name in enumerate(names, 1) if name == word]
     if named:
         return named

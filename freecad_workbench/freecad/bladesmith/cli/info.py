@@ -4,7 +4,7 @@ import argparse
 import json
 from pathlib import Path
 
-from ..native import Field, Part
+from ..native import Field
 from ..occ import step
 from .outputs import Outputs, check_target
 

@@ -6,7 +6,7 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 from .. import __version__
 from ..model import FIELD_UNITS_MM, MorphOptions, Report
@@ -70,7 +70,7 @@ def _check_targets(options: argparse.Namespace) -> None:
     if any(c in "\r\n" for c in options.output):
         raise InputError("--output: a file name must not have line ends")
     inputs = [options.part, options.field] + ([options.mesh] if options.mesh else [])
-    seen: List[str] = []
+    seen: list[str] = []
     for what, target in targets.items():
         if target is None:
             continue
@@ -178,7 +178,7 @@ def _write_solid(
 
 
 def _refuse_unless_input_was_bad(
-    options: argparse.Namespace, result: _Result, complaints: List[str]
+    options: argparse.Namespace, result: _Result, complaints: list[str]
 ) -> None:
     """A bad result of a good solid is ours and not written; of a bad one it is told."""
     what = "; ".join(complaints)
@@ -206,7 +206,8 @@ def _write_report(
         folder = outputs.directory(options.report)
         progress("drawing", _CORE_DONE + 0.2)
         result.report.seconds["total"] = time.monotonic() - started
-        write_page(folder, result.report, result.hot, result.nodes, options.tolerance)
+        shapes = (result.hot, result.shape)
+        write_page(folder, result.report, shapes, result.nodes, options.tolerance)
     result.report.seconds["total"] = time.monotonic() - started
     if options.json:
         Path(outputs.file(options.json)).write_text(result.report.to_json(), "utf-8")

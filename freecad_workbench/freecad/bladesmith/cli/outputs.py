@@ -8,7 +8,6 @@ import os
 import shutil
 import tempfile
 from pathlib import Path
-from typing import List, Tuple
 
 from ..native.errors import InputError
 
@@ -17,7 +16,7 @@ class Outputs:
     """A context manager: leaving it by an exception, or without ``commit``, removes everything."""
 
     def __init__(self):
-        self._pending: List[Tuple[Path, Path]] = []
+        self._pending: list[tuple[Path, Path]] = []
 
     def __enter__(self) -> "Outputs":
         return self

@@ -1,7 +1,6 @@
 """What a user can choose for a morph."""
 
 from dataclasses import asdict, dataclass
-from typing import Tuple
 
 FIELD_UNITS_MM = {"mm": 1.0, "m": 1000.0, "in": 25.4}
 """Length in mm of the units a field file may have."""
@@ -17,12 +16,12 @@ class MorphOptions:
     field_unit_mm: float = 0.0
     displacement_scale: float = 1.0
     solid: int = 0
-    moving_faces: Tuple[int, ...] = ()
-    fixed_faces: Tuple[int, ...] = ()
+    moving_faces: tuple[int, ...] = ()
+    fixed_faces: tuple[int, ...] = ()
     extrapolate: bool = False
     holdout: bool = False
     threads: int = 0
-    face_names: Tuple[str, ...] = ()
+    face_names: tuple[str, ...] = ()
     solid_name: str = ""
 
     def settings(self) -> dict:

@@ -6,7 +6,7 @@ classes below name what the summary and the page show. Lengths in mm, angles in 
 
 import json
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Optional
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,8 @@ class Face:
 
     index: int
     name: str
-    degree: Tuple[int, int]
-    poles: Tuple[int, int]
+    degree: tuple[int, int]
+    poles: tuple[int, int]
     rational: bool
     nodes: int
     foot_mm: Spread
@@ -70,7 +70,7 @@ class Edge:
     """One edge: how far its curve and its two traces are apart, and how its faces meet."""
 
     index: int
-    faces: Tuple[int, int]
+    faces: tuple[int, int]
     gap_mm: Change
     angle_deg: Change
     tangent: bool
@@ -91,10 +91,10 @@ class Edge:
 class Report:
     """A morph's report; what is added here goes into the document."""
 
-    def __init__(self, document: Dict[str, Any]):
+    def __init__(self, document: dict[str, Any]):
         self.document = document
-        self.faces: List[Face] = [Face.of(face) for face in document["faces"]]
-        self.edges: List[Edge] = [Edge.of(edge) for edge in document["edges"]]
+        self.faces: list[Face] = [Face.of(face) for face in document["faces"]]
+        self.edges: list[Edge] = [Edge.of(edge) for edge in document["edges"]]
         self.deviation_mm = Spread.of(document["deviation_mm"])
         self.holdout_mm = Spread.of(document["holdout_mm"])
         self.volume_mm3 = Change.of(document["solid"]["volume_mm3"])
@@ -103,19 +103,23 @@ class Report:
         self.tolerance_mm = Change.of(document["solid"]["tolerance_mm"])
 
     @property
-    def input(self) -> Dict[str, Any]:
+    def input(self) -> dict[str, Any]:
         return self.document["input"]
 
     @property
-    def solid(self) -> Dict[str, Any]:
+    def solid(self) -> dict[str, Any]:
         return self.document["solid"]
 
     @property
-    def warnings(self) -> List[str]:
+    def warnings(self) -> list[str]:
         return self.document["warnings"]
 
     @property
-    def seconds(self) -> Dict[str, float]:
+    def unmatched(self) -> int:
+        return self.document["unmatched_nodes"]
+
+    @property
+    def seconds(self) -> dict[str, float]:
         return self.document["seconds"]
 
     def judged(self, valid: bool, closed: bool) -> None:
@@ -123,7 +127,7 @@ class Report:
         self.solid["valid"] = valid
         self.solid["closed"] = bool(self.solid["closed"] and closed)
 
-    def name_faces(self, names: List[str]) -> None:
+    def name_faces(self, names: list[str]) -> None:
         """Gives faces their names; those without one keep theirs."""
         for face, name in zip(self.document["faces"], names):
             face["name"] = name or face["name"]

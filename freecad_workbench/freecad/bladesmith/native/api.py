@@ -7,8 +7,18 @@ Each owns one handle of the core and frees it with itself. Calls raise the excep
 import ctypes
 import json
 import os
-from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint32, c_void_p
-from typing import Callable, Optional, Sequence
+from collections.abc import Sequence
+from ctypes import (
+    POINTER,
+    byref,
+    c_char_p,
+    c_double,
+    c_int32,
+    c_size_t,
+    c_uint32,
+    c_void_p,
+)
+from typing import Callable, Optional
 
 from .errors import Cancelled, from_status
 from .finder import load

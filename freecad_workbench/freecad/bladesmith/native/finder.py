@@ -8,7 +8,6 @@ import ctypes
 import os
 import sys
 from pathlib import Path
-from typing import List
 
 from .errors import SetupError
 
@@ -18,7 +17,7 @@ ABI_VERSION = 1
 _PACKAGE_ROOT = Path(__file__).resolve().parents[3]
 
 
-def _file_names() -> List[str]:
+def _file_names() -> list[str]:
     if sys.platform == "win32":
         return ["bladesmith.dll"]
     if sys.platform == "darwin":
@@ -26,7 +25,7 @@ def _file_names() -> List[str]:
     return [f"libbladesmith.so.{ABI_VERSION}", "libbladesmith.so"]
 
 
-def _candidates() -> List[str]:
+def _candidates() -> list[str]:
     folders = [
         Path(__file__).resolve().parent,
         _PACKAGE_ROOT.parent / "target" / "release",

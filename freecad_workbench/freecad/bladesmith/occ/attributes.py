@@ -6,11 +6,11 @@ surfaces agree face by face.
 """
 
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
+from typing import Optional
 
 from .part21 import Part21, Record, Reference
 
-Colour = Tuple[float, float, float]
+Colour = tuple[float, float, float]
 
 _SOLIDS = ("MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "FACETED_BREP")
 _FACES = ("ADVANCED_FACE", "FACE_SURFACE")
@@ -41,9 +41,9 @@ class SolidAttributes:
 
     name: str = ""
     colour: Optional[Colour] = None
-    face_names: List[str] = field(default_factory=list)
-    face_colours: List[Optional[Colour]] = field(default_factory=list)
-    face_kinds: List[Optional[str]] = field(default_factory=list, repr=False)
+    face_names: list[str] = field(default_factory=list)
+    face_colours: list[Optional[Colour]] = field(default_factory=list)
+    face_kinds: list[Optional[str]] = field(default_factory=list, repr=False)
 
     @property
     def has_face_names(self) -> bool:
@@ -66,7 +66,7 @@ def product_name(file: Part21) -> str:
     return ""
 
 
-def solids(file: Part21) -> List[SolidAttributes]:
+def solids(file: Part21) -> list[SolidAttributes]:
     """The solids of a file, in its order.
 
     Raises :class:`Part21Error` where entities are malformed or missing.
@@ -91,7 +91,7 @@ def solids(file: Part21) -> List[SolidAttributes]:
     return found
 
 
-def shell_faces(file: Part21, shell: int) -> List[int]:
+def shell_faces(file: Part21, shell: int) -> list[int]:
     """Numbers of a shell's faces, in order."""
     record = file.record(shell)
     if record.keyword == "ORIENTED_CLOSED_SHELL":
@@ -99,7 +99,7 @@ def shell_faces(file: Part21, shell: int) -> List[int]:
     return list(record.parameters[1])
 
 
-def matched(file_solids: List[SolidAttributes], shape_kinds: List[List[str]]):
+def matched(file_solids: list[SolidAttributes], shape_kinds: list[list[str]]):
     """For each solid of Open CASCADE (its surface kinds by face) what the file says, or None.
 
     None where no solid of the file agrees, or several do that say different things.
@@ -116,7 +116,7 @@ def matched(file_solids: List[SolidAttributes], shape_kinds: List[List[str]]):
     return matches
 
 
-def _agree(solid: SolidAttributes, kinds: List[str]) -> bool:
+def _agree(solid: SolidAttributes, kinds: list[str]) -> bool:
     return len(solid.face_kinds) == len(kinds) and all(
         said is None or said == kind for said, kind in zip(solid.face_kinds, kinds)
     )
@@ -138,7 +138,7 @@ def _face_kind(file: Part21, face: int) -> Optional[str]:
     return _KINDS.get(file.entity(record.parameters[2])[0].keyword)
 
 
-def _colours(file: Part21) -> Dict[int, Colour]:
+def _colours(file: Part21) -> dict[int, Colour]:
     """Surface colour by the number of the entity that carries it; overriding styles win."""
     found = {}
     for keyword in _STYLED:
@@ -172,7 +172,7 @@ def _first_colour(file: Part21, number: int, depth: int) -> Optional[Colour]:
     return next((colour for colour in deeper if colour is not None), None)
 
 
-def _references(values) -> List[int]:
+def _references(values) -> list[int]:
     """Every reference in a parameter list, in order."""
     found = []
     for value in values:
@@ -183,4 +183,3 @@ def _references(values) -> List[int]:
         elif isinstance(value, list):
             found += _references(value)
     return found
-

@@ -2,7 +2,6 @@
 
 import os
 from datetime import datetime, timezone
-from typing import List, Tuple
 
 from .attributes import Colour, SolidAttributes, shell_faces
 from .part21 import Part21, Part21Error, edited, encode, scan
@@ -40,7 +39,7 @@ def decorated(text: str, product: str, attributes: SolidAttributes, tool: str) -
     return edited(text, edits)
 
 
-def _faces(file: Part21) -> List[int]:
+def _faces(file: Part21) -> list[int]:
     solids = file.numbers[_SOLID] + file.numbers["BREP_WITH_VOIDS"]
     if len(solids) != 1:
         raise Part21Error(f"expected one solid, found {len(solids)}")
@@ -49,7 +48,7 @@ def _faces(file: Part21) -> List[int]:
     return [face for shell in [parameters[1], *voids] for face in shell_faces(file, shell)]
 
 
-def _header_edits(file: Part21, product: str, tool: str) -> List[Tuple[int, int, str]]:
+def _header_edits(file: Part21, product: str, tool: str) -> list[tuple[int, int, str]]:
     name = ",".join(
         (encode(product), encode(header_time()), "('')", "('')", encode("Open CASCADE"))
     )
@@ -60,7 +59,7 @@ def _header_edits(file: Part21, product: str, tool: str) -> List[Tuple[int, int,
     return [(*file.header[keyword], text) for keyword, text in replacements.items()]
 
 
-def _product_identifier_edits(file: Part21, product: str) -> List[Tuple[int, int, str]]:
+def _product_identifier_edits(file: Part21, product: str) -> list[tuple[int, int, str]]:
     """The second string of PRODUCT: Open CASCADE numbers it by the writes of the process."""
     edits = []
     for number in file.numbers["PRODUCT"]:
@@ -76,7 +75,7 @@ class _Appender:
 
     def __init__(self, file: Part21):
         self.next = max(file.places) + 1
-        self.lines: List[str] = []
+        self.lines: list[str] = []
 
     def add(self, definition: str) -> int:
         number = self.next
@@ -85,7 +84,7 @@ class _Appender:
         return number
 
 
-def _styles(file: Part21, attributes: SolidAttributes, faces: List[int]) -> List[str]:
+def _styles(file: Part21, attributes: SolidAttributes, faces: list[int]) -> list[str]:
     """Styled items for the solid's colour and for faces that differ from it."""
     solid = (file.numbers[_SOLID] + file.numbers["BREP_WITH_VOIDS"])[0]
     coloured = [(solid, attributes.colour)] if attributes.colour else []
@@ -111,7 +110,7 @@ def _styles(file: Part21, attributes: SolidAttributes, faces: List[int]) -> List
 
 
 def _style(appender: _Appender, colour: Colour) -> int:
-    red, green, blue = (repr(float(c)) for c in colour)
+    red, green, blue = (f"{component:.12f}" for component in colour)
     rgb = appender.add(f"COLOUR_RGB('',{red},{green},{blue})")
     fill = appender.add(f"FILL_AREA_STYLE_COLOUR('',#{rgb})")
     area = appender.add(f"FILL_AREA_STYLE('',(#{fill}))")

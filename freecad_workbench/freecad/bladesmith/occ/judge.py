@@ -4,7 +4,6 @@ Only calls that survive bad geometry are used: ``Face.validate`` and its like ca
 """
 
 from dataclasses import dataclass, field
-from typing import List
 
 _FRACTIONS = (0.11, 0.37, 0.63, 0.89)
 _VOLUME_NOISE = 1e-5
@@ -17,7 +16,7 @@ class Verdict:
 
     valid: bool
     closed: bool
-    complaints: List[str] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
 
 
 def judge(shape) -> Verdict:
@@ -40,16 +39,14 @@ def comparison_tolerance(shape) -> float:
     return 1e-6 * max(1.0, shape.BoundBox.DiagonalLength / 1000.0)
 
 
-def differences(first, second, tolerance_mm: float) -> List[str]:
+def differences(first, second, tolerance_mm: float) -> list[str]:
     """What differs between two solids that should have the same faces in the same order.
 
     Compares the numbers of faces and edges, points of each face's surface, and the volume. A face
     whose parameters were changed is compared by the nearest points of the other's surface.
     """
     pairs = (("faces", first.Faces, second.Faces), ("edges", first.Edges, second.Edges))
-    found = [
-        f"{len(a)} {what} became {len(b)}" for what, a, b in pairs if len(a) != len(b)
-    ]
+    found = [f"{len(a)} {what} became {len(b)}" for what, a, b in pairs if len(a) != len(b)]
     if found:
         return found
     for index, (a, b) in enumerate(zip(first.Faces, second.Faces), 1):

@@ -7,8 +7,9 @@ which FreeCAD drops.
 
 import re
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Dict, Iterator, List, NamedTuple, Tuple
+from typing import NamedTuple
 
 
 class Reference(int):
@@ -45,12 +46,12 @@ class Part21:
     """The text of a file, the place of each entity's definition in it, and numbers by keyword."""
 
     text: str
-    places: Dict[int, Tuple[int, int]] = field(default_factory=dict)
-    numbers: Dict[str, List[int]] = field(default_factory=lambda: defaultdict(list))
-    header: Dict[str, Tuple[int, int]] = field(default_factory=dict)
+    places: dict[int, tuple[int, int]] = field(default_factory=dict)
+    numbers: dict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    header: dict[str, tuple[int, int]] = field(default_factory=dict)
     data_end: int = -1
 
-    def entity(self, number: int) -> List[Record]:
+    def entity(self, number: int) -> list[Record]:
         """The records of an entity: one, or several where it is complex.
 
         Raises :class:`Part21Error` where it is missing or malformed.
@@ -80,7 +81,7 @@ class Part21:
                 return record
         raise Part21Error(f"entity #{number} is no {' or '.join(keywords)}")
 
-    def first_string(self, number: int) -> Tuple[int, int]:
+    def first_string(self, number: int) -> tuple[int, int]:
         """Place of the first string of an entity, quotes included."""
         start, end = self.places[number]
         for token in _TOKEN.finditer(self.text, start, end):
@@ -95,7 +96,7 @@ class _Tokens:
     def __init__(self, text: str, start: int, end: int, place: str):
         self.text, self.position, self.end, self.place = text, start, end, place
 
-    def next(self) -> Tuple[str, str]:
+    def next(self) -> tuple[str, str]:
         token = _TOKEN.match(self.text, self.position, self.end)
         if token is None:
             raise self.error("a parameter", self.text[self.position : self.position + 20])
@@ -114,8 +115,8 @@ class _Tokens:
 
     def parameters(self) -> list:
         """What stands up to the closing parenthesis of a list that has just been opened."""
-        stack: List[list] = [[]]
-        keywords: List[str] = []
+        stack: list[list] = [[]]
+        keywords: list[str] = []
         while True:
             kind, value = self.next()
             if kind == "keyword":
@@ -185,7 +186,7 @@ def scan(text: str) -> Part21:
     return found
 
 
-def _statements(text: str) -> Iterator[Tuple[int, int]]:
+def _statements(text: str) -> Iterator[tuple[int, int]]:
     start = 0
     for delimiter in _DELIMITER.finditer(text):
         if delimiter.group() == ";":
@@ -193,7 +194,7 @@ def _statements(text: str) -> Iterator[Tuple[int, int]]:
             start = delimiter.end()
 
 
-def edited(text: str, edits: List[Tuple[int, int, str]]) -> str:
+def edited(text: str, edits: list[tuple[int, int, str]]) -> str:
     """The text with every (start, end, replacement) made; places must not overlap."""
     pieces, position = [], 0
     for start, end, replacement in sorted(edits):

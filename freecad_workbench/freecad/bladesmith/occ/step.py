@@ -9,7 +9,7 @@ import tempfile
 import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 from ..native.errors import InputError
 from . import attributes as step_attributes
@@ -28,8 +28,8 @@ class StepPart:
     path: str
     product: str
     shape: object
-    solids: List[SolidAttributes]
-    warnings: List[str] = field(default_factory=list)
+    solids: list[SolidAttributes]
+    warnings: list[str] = field(default_factory=list)
 
 
 def is_step(data: bytes) -> bool:
