@@ -1,6 +1,28 @@
 //! Finite-element meshes and displacement fields.
+//!
+//! [`read`] takes CalculiX results (`.frd`) or a table of nodes (CSV), gzipped or not, told by
+//! their content; a deck (`.inp`) adds the node coordinates in full precision. Files in other
+//! formats come in as arrays, through [`Field::from_arrays`], and go through the same checks.
 
+mod assemble;
+mod deck;
+mod elements;
+mod frd;
+mod input;
+mod nodes;
+mod scan;
+mod source;
+mod surface;
+
+pub use source::{Block, ElementCount, Source, Step};
+pub use surface::NO_NODE;
+
+use crate::error::{Error, Result};
+use assemble::{Parts, assemble};
 use glam::DVec3;
+use input::Input;
+use nodes::Rows;
+use std::path::{Path, PathBuf};
 
 /// A displacement field on the nodes of an FE mesh, as read (no unit applied).
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,12 +37,94 @@ pub struct Field {
     pub displacements: Vec<DVec3>,
     /// Nodes on the mesh's surface as indices into `ids`, ascending; `None` without elements.
     pub surface_nodes: Option<Vec<u32>>,
-    /// Corner nodes of each mid-side node on the surface: (mid-side, corner, corner), as indices.
+    /// Each mid-side node on the surface with its two corners, as indices: (mid-side, corner,
+    /// corner), ascending.
     pub mid_sides: Vec<[u32; 3]>,
-    /// Result step used, from 1, and how many the file has.
+    /// Triangles of the mesh's surface as indices: three corners, anticlockwise seen from outside,
+    /// then the mid-side nodes between the first and second, second and third, third and first
+    /// corner, or [`NO_NODE`] for all three.
+    ///
+    /// A linear quadrilateral is two of them. A second-order one is six linear triangles over its
+    /// eight nodes. Empty without elements.
+    pub surface_faces: Vec<[u32; 6]>,
+    /// Result step used, from 1, among those with displacements.
     pub step: usize,
     /// Number of steps with displacements.
     pub steps: usize,
+    /// Format of the file, its blocks, steps and elements.
+    pub source: Source,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+/// What to read, and with what.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// The deck that was solved, for coordinates in full precision, and for the elements where the
+    /// results have none.
+    pub mesh: Option<PathBuf>,
+    /// Step with displacements to use, from 1; `None`: the last.
+    pub step: Option<usize>,
+}
+
+/// Reads a field from a results file or a table; results and deck are read at the same time.
+///
+/// # Errors
+/// [`Error::Io`] for files that cannot be read, [`Error::Field`] for those that cannot be used.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Field> {
+    let Some(mesh) = &options.mesh else { return read_results(path, options.step) };
+    let (field, deck) = rayon::join(|| read_results(path, options.step), || deck::read(mesh));
+    let mut field = field?;
+    deck?.refine(&mut field)?;
+    Ok(field)
+}
+
+fn read_results(path: &Path, step: Option<usize>) -> Result<Field> {
+    let mut input = Input::open(path)?;
+    if step == Some(0) {
+        return Err(input.error("step 0 was asked for; steps are numbered from 1"));
+    }
+    let name = input.path().to_string();
+    let first = loop {
+        match input.next_line()? {
+            None => return Err(Error::Field { path: name, line: 0, why: "the file is empty".into() }),
+            Some(line) if scan::trim(line).is_empty() => (),
+            Some(line) => break line.to_vec(),
+        }
+    };
+    input.put_back();
+    if frd::begins_with(&first) {
+        let frd::Results { nodes, displacements, elements, source, step, warnings } = frd::read(input, step)?;
+        return assemble(Parts { name, nodes, displacements, elements, source, step, warnings });
+    }
+    input.next_line()?;
+    Err(input.error(format!(
+        "neither CalculiX results (.frd) nor a table id,x,y,z,dx,dy,dz: it begins with '{}'",
+        scan::excerpt(&first)
+    )))
+}
+
+impl Field {
+    /// A field from arrays of equal length, checked like one from a file.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for arrays of different lengths, [`Error::Field`] as in [`read`].
+    pub fn from_arrays(name: &str, ids: &[i64], points: &[DVec3], displacements: &[DVec3]) -> Result<Self> {
+        for (array, length) in [("points", points.len()), ("displacements", displacements.len())] {
+            if length != ids.len() {
+                let why = format!("{length} values for {} nodes", ids.len());
+                return Err(Error::Argument { name: array, why });
+            }
+        }
+        let rows = |values: &[DVec3]| Rows { ids: ids.to_vec(), values: values.to_vec() };
+        let mut parts = Parts::of_table(name.to_string(), rows(points), rows(displacements));
+        parts.source.format = "arrays".into();
+        assemble(parts)
+    }
+
+    /// Numbers of the nodes without a displacement, ascending.
+    pub fn nodes_without_result(&self) -> Vec<i64> {
+        let missing = |(id, u): (&i64, &DVec3)| u.is_nan().then_some(*id);
+        self.ids.iter().zip(&self.displacements).filter_map(missing).collect()
+    }
 }

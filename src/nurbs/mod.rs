@@ -4,8 +4,10 @@
 
 pub mod basis;
 pub mod curve;
+pub mod refine;
 pub mod surface;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use refine::Direction;
 pub use surface::{NurbsSurface, SurfaceDerivatives};

@@ -1,0 +1,269 @@
+//! Exact reshaping by knot insertion (Boehm 1980; *The NURBS Book*, section 5.2).
+
+use super::basis::KnotVector;
+use super::curve::{NurbsCurve, Point};
+use super::surface::NurbsSurface;
+use crate::error::{Error, Result};
+use glam::DVec3;
+use std::ops::{Add, Mul};
+
+/// Homogeneous poles of a curve (one column) or surface; knots are inserted along the rows.
+struct Net<P: Point> {
+    columns: usize,
+    poles: Vec<P>,
+    weights: Option<Vec<f64>>,
+}
+
+impl<P: Point> Net<P> {
+    fn new(columns: usize, poles: &[P], weights: Option<&[f64]>) -> Self {
+        let weight = |i: usize| weights.map_or(1.0, |w| w[i]);
+        let poles = poles.iter().enumerate().map(|(i, &p)| p * weight(i)).collect();
+        Self { columns, poles, weights: weights.map(<[f64]>::to_vec) }
+    }
+
+    fn transposed(&self) -> Self {
+        let rows = self.poles.len() / self.columns;
+        let order = || (0..self.poles.len()).map(|i| (i % rows) * self.columns + i / rows);
+        Self {
+            columns: rows,
+            poles: order().map(|i| self.poles[i]).collect(),
+            weights: self.weights.as_ref().map(|w| order().map(|i| w[i]).collect()),
+        }
+    }
+
+    /// One more row: row `i` becomes `share[i]` of row `i` and the rest of row `i - 1`.
+    fn insert(&mut self, share: &[f64]) {
+        self.poles = blend(&self.poles, self.columns, share);
+        self.weights = self.weights.as_ref().map(|w| blend(w, self.columns, share));
+    }
+
+    fn keep_rows(&mut self, rows: std::ops::Range<usize>) {
+        let range = rows.start * self.columns..rows.end * self.columns;
+        self.poles = self.poles[range.clone()].to_vec();
+        self.weights = self.weights.as_ref().map(|w| w[range].to_vec());
+    }
+
+    /// Poles and weights, no longer homogeneous.
+    fn project(self) -> (Vec<P>, Option<Vec<f64>>) {
+        let poles = match &self.weights {
+            None => self.poles,
+            Some(w) => self.poles.iter().zip(w).map(|(&p, &w)| p / w).collect(),
+        };
+        (poles, self.weights)
+    }
+}
+
+fn blend<T>(old: &[T], columns: usize, share: &[f64]) -> Vec<T>
+where
+    T: Copy + Add<Output = T> + Mul<f64, Output = T>,
+{
+    let entry = |i: usize| match share[i / columns] {
+        1.0 => old[i],
+        0.0 => old[i - columns],
+        a => old[i] * a + old[i - columns] * (1.0 - a),
+    };
+    (0..share.len() * columns).map(entry).collect()
+}
+
+/// Inserts `t` until it has at least this multiplicity.
+fn raise<P: Point>(knots: KnotVector, net: &mut Net<P>, t: f64, multiplicity: usize) -> Result<KnotVector> {
+    let p = knots.degree();
+    let mut flat = knots.flat().to_vec();
+    let present = flat.iter().filter(|&&k| k == t).count();
+    for s in present..multiplicity {
+        let span = flat.partition_point(|&k| k <= t) - 1;
+        let share = |i: usize| match i {
+            i if i + p <= span => 1.0,
+            i if i + s <= span => (t - flat[i]) / (flat[i + p] - flat[i]),
+            _ => 0.0,
+        };
+        let shares: Vec<f64> = (0..flat.len() - p).map(share).collect();
+        net.insert(&shares);
+        flat.insert(span + 1, t);
+    }
+    KnotVector::new(p, flat)
+}
+
+/// Clamps knots and net at both ends of the domain.
+fn clamp<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVector> {
+    let p = knots.degree();
+    let (a, b) = knots.domain();
+    let knots = raise(knots.clone(), net, a, p)?;
+    let knots = raise(knots, net, b, p)?;
+    let flat = knots.flat();
+    let start = flat.partition_point(|&k| k <= a) - 1;
+    let end = flat.partition_point(|&k| k < b);
+    net.keep_rows(start - p..end);
+    let mut clamped = vec![a];
+    clamped.extend_from_slice(&flat[start + 1 - p..end + p]);
+    clamped.push(b);
+    KnotVector::new(p, clamped)
+}
+
+fn is_clamped(knots: &KnotVector) -> bool {
+    let flat = knots.flat();
+    knots.domain() == (flat[0], flat[flat.len() - 1])
+}
+
+/// Refuses to insert outside the domain or beyond the degree.
+fn check_insertion(knots: &KnotVector, t: f64, times: usize) -> Result<usize> {
+    let (a, b) = knots.domain();
+    let present = knots.flat().iter().filter(|&&k| k == t).count();
+    if !(a < t && t < b) || present + times > knots.degree() {
+        return Err(Error::Spline {
+            why: format!(
+                "knot {t} cannot be inserted {times} times: it must lie inside ({a}, {b}) and end with a \
+                 multiplicity of at most {}; it has {present}",
+                knots.degree()
+            ),
+        });
+    }
+    Ok(present + times)
+}
+
+impl<P: Point> NurbsCurve<P> {
+    fn reshape(&self, change: impl FnOnce(&KnotVector, &mut Net<P>) -> Result<KnotVector>) -> Result<Self> {
+        let mut net = Net::new(1, self.poles(), self.weights());
+        let knots = change(self.knots(), &mut net)?;
+        let (poles, weights) = net.project();
+        Self::new(knots, poles, weights)
+    }
+
+    /// The same curve with the knot `t` inserted so many more times.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] when `t` is not inside the domain or its multiplicity would exceed the
+    /// degree.
+    pub fn insert_knot(&self, t: f64, times: usize) -> Result<Self> {
+        let multiplicity = check_insertion(self.knots(), t, times)?;
+        self.reshape(|knots, net| raise(knots.clone(), net, t, multiplicity))
+    }
+
+    /// The same curve over its domain with `degree + 1` equal knots at both ends.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] when rounding leaves no usable knots.
+    pub fn clamped(&self) -> Result<Self> {
+        if is_clamped(self.knots()) { Ok(self.clone()) } else { self.reshape(clamp) }
+    }
+}
+
+/// Direction of a surface's parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// The first parameter.
+    U,
+    /// The second parameter.
+    V,
+}
+
+impl NurbsSurface {
+    fn reshape(
+        &self,
+        direction: Direction,
+        change: impl FnOnce(&KnotVector, &mut Net<DVec3>) -> Result<KnotVector>,
+    ) -> Result<Self> {
+        let mut net = Net::new(self.knots_v().len(), self.poles(), self.weights());
+        let (mut ku, mut kv) = (self.knots_u().clone(), self.knots_v().clone());
+        match direction {
+            Direction::U => ku = change(&ku, &mut net)?,
+            Direction::V => {
+                net = net.transposed();
+                kv = change(&kv, &mut net)?;
+                net = net.transposed();
+            }
+        }
+        let (poles, weights) = net.project();
+        Self::new(ku, kv, poles, weights)
+    }
+
+    /// The same surface with the knot `t` inserted so many more times along `direction`.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] when `t` is not inside the domain or its multiplicity would exceed the
+    /// degree.
+    pub fn insert_knot(&self, direction: Direction, t: f64, times: usize) -> Result<Self> {
+        let knots = match direction {
+            Direction::U => self.knots_u(),
+            Direction::V => self.knots_v(),
+        };
+        let multiplicity = check_insertion(knots, t, times)?;
+        self.reshape(direction, |knots, net| raise(knots.clone(), net, t, multiplicity))
+    }
+
+    /// The same surface over its domain with `degree + 1` equal knots at all ends.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] when rounding leaves no usable knots.
+    pub fn clamped(&self) -> Result<Self> {
+        let mut surface = self.clone();
+        if !is_clamped(self.knots_u()) {
+            surface = surface.reshape(Direction::U, clamp)?;
+        }
+        if !is_clamped(self.knots_v()) {
+            surface = surface.reshape(Direction::V, clamp)?;
+        }
+        Ok(surface)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unclamped_curve() -> NurbsCurve<DVec3> {
+        let flat = vec![-0.5, -0.2, -0.2, 0.0, 0.3, 0.3, 0.7, 1.0, 1.2, 1.9, 2.0];
+        let poles = (0..7).map(|i| DVec3::new(i as f64, (i * i) as f64 * 0.3, (i as f64).sin())).collect();
+        let weights = Some(vec![1.0, 2.0, 0.5, 1.0, 1.5, 0.8, 1.2]);
+        NurbsCurve::new(KnotVector::new(3, flat).unwrap(), poles, weights).unwrap()
+    }
+
+    fn saddle() -> NurbsSurface {
+        let ku = KnotVector::new(2, vec![-1.0, -0.3, 0.0, 0.4, 1.0, 1.5, 2.0]).unwrap();
+        let kv = KnotVector::clamped(3, &[0.0, 0.5, 2.0]).unwrap();
+        let poles = (0..4 * 5)
+            .map(|i| {
+                let (x, y) = ((i / 5) as f64, (i % 5) as f64);
+                DVec3::new(x, y, x * y - 0.1 * x * x)
+            })
+            .collect();
+        NurbsSurface::new(ku, kv, poles, Some((0..20).map(|i| 1.0 + 0.1 * (i % 3) as f64).collect())).unwrap()
+    }
+
+    #[test]
+    fn clamping_keeps_the_curve() {
+        let curve = unclamped_curve();
+        let clamped = curve.clamped().unwrap();
+        assert_eq!(clamped.knots().domain(), curve.knots().domain());
+        assert_eq!(clamped.knots().flat()[..4], [0.0; 4]);
+        assert!(clamped.poles()[0].distance(curve.point(0.0)) < 1e-14);
+        for i in 0..=50 {
+            let t = i as f64 / 50.0;
+            let gap = clamped.point(t).distance(curve.point(t));
+            assert!(gap < 1e-13, "{gap} at {t}");
+        }
+    }
+
+    #[test]
+    fn knot_insertion_keeps_the_surface() {
+        let surface = saddle();
+        let refined = surface.insert_knot(Direction::U, 0.7, 2).unwrap();
+        let refined = refined.insert_knot(Direction::V, 0.5, 1).unwrap().clamped().unwrap();
+        assert_eq!((refined.knots_u().len(), refined.knots_v().len()), (6, 6));
+        for i in 0..=20 {
+            for j in 0..=20 {
+                let (u, v) = (i as f64 / 20.0, j as f64 / 10.0);
+                let gap = refined.point(u, v).distance(surface.point(u, v));
+                assert!(gap < 1e-13, "{gap} at ({u}, {v})");
+            }
+        }
+    }
+
+    #[test]
+    fn too_many_insertions_are_refused() {
+        let curve = unclamped_curve();
+        for (t, times) in [(0.3, 2), (0.0, 1), (1.5, 1), (f64::NAN, 1)] {
+            assert!(matches!(curve.insert_knot(t, times), Err(Error::Spline { .. })), "{t} × {times}");
+        }
+    }
+}
