@@ -8,6 +8,7 @@ use super::elements::{ElementKind, Elements};
 use super::input::Input;
 use super::nodes::{NodeIndex, Rows, first_few};
 use super::scan;
+use super::source::Format;
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::path::Path;
@@ -16,7 +17,8 @@ use std::path::Path;
 const DEEPEST_INCLUDE: usize = 8;
 
 /// Results keep six digits and go through single precision: by what fraction of its size a
-/// coordinate may differ from the deck's.
+/// coordinate may differ from the deck's. In tables, which often have fixed decimals, it is a
+/// fraction of the model's size.
 const RESULT_ROUNDING: f64 = 5.1e-6;
 
 /// Nodes and elements of a deck.
@@ -62,6 +64,10 @@ pub(super) fn read(path: &Path) -> Result<Deck> {
 impl Deck {
     fn add(&mut self, path: &Path, section: &mut Section, depth: usize) -> Result<()> {
         let mut input = Input::open(path)?;
+        self.lines(&mut input, path, section, depth).map_err(|error| input.deeper_cause(error))
+    }
+
+    fn lines(&mut self, input: &mut Input, path: &Path, section: &mut Section, depth: usize) -> Result<()> {
         let mut keyword = String::new();
         while let Some(line) = input.next_line()? {
             let line = scan::trim(line);
@@ -71,7 +77,7 @@ impl Deck {
             if line[0] == b'*' || !keyword.is_empty() {
                 keyword.push_str(&String::from_utf8_lossy(line));
                 if !keyword.ends_with(',') {
-                    self.keyword(&input, path, &keyword, section, depth)?;
+                    self.keyword(input, path, &keyword, section, depth)?;
                     keyword.clear();
                 }
             } else if let Err(expected) = self.data(line, section) {
@@ -196,13 +202,15 @@ impl Deck {
         let mut absent = Vec::new();
         let mut apart = Vec::new();
         let mut points = field.points.clone();
+        let [low, high] = field.bounds();
+        let size = if field.source.format == Format::Results { 0.0 } else { low.distance(high) };
         for (point, &id) in points.iter_mut().zip(&field.ids) {
             let Some(place) = index.find(id) else {
                 absent.push(id);
                 continue;
             };
             let exact = self.nodes.values[place as usize];
-            if !agree(*point, exact) {
+            if !agree(*point, exact, size) {
                 apart.push((id, *point, exact));
             }
             *point = exact;
@@ -261,9 +269,9 @@ fn kept<const N: usize>(groups: &[[u32; N]], own: impl Fn(u32) -> Option<u32>) -
     groups.iter().filter_map(renumber).collect()
 }
 
-/// Whether a point of the results is the deck's, rounded.
-fn agree(rounded: DVec3, exact: DVec3) -> bool {
-    let tolerance = RESULT_ROUNDING * rounded.abs().max(exact.abs());
+/// Whether a point of the results is the deck's, rounded to six digits of itself, or of `size`.
+fn agree(rounded: DVec3, exact: DVec3, size: f64) -> bool {
+    let tolerance = RESULT_ROUNDING * rounded.abs().max(exact.abs()).max(DVec3::splat(size));
     (rounded - exact).abs().cmple(tolerance).all()
 }
 

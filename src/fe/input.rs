@@ -138,6 +138,19 @@ impl Input {
         Ok(Some(bytes))
     }
 
+    /// What lies behind an error in the content: a damaged archive, if the rest cannot be unpacked.
+    pub fn deeper_cause(&mut self, error: Error) -> Error {
+        while self.compressed && matches!(error, Error::Field { .. }) {
+            self.start = self.end;
+            match self.fill() {
+                Ok(true) => (),
+                Ok(false) => break,
+                Err(damage) => return damage,
+            }
+        }
+        error
+    }
+
     /// Reads on behind what is not yet used; `false` at the end of the file.
     fn fill(&mut self) -> Result<bool> {
         if self.exhausted {

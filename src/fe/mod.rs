@@ -5,6 +5,7 @@
 //! formats come in as arrays, through [`Field::from_arrays`], and go through the same checks.
 
 mod assemble;
+mod csv;
 mod deck;
 mod elements;
 mod frd;
@@ -12,9 +13,11 @@ mod input;
 mod nodes;
 mod scan;
 mod source;
+mod summary;
 mod surface;
 
-pub use source::{Block, ElementCount, Source, Step};
+pub use source::{Block, ElementCount, Format, Source, Step};
+pub use summary::{FieldSummary, LargestDisplacement};
 pub use surface::NO_NODE;
 
 use crate::error::{Error, Result};
@@ -84,6 +87,11 @@ fn read_results(path: &Path, step: Option<usize>) -> Result<Field> {
     if step == Some(0) {
         return Err(input.error("step 0 was asked for; steps are numbered from 1"));
     }
+    let parts = read_parts(&mut input, step);
+    assemble(parts.map_err(|error| input.deeper_cause(error))?)
+}
+
+fn read_parts(input: &mut Input, step: Option<usize>) -> Result<Parts> {
     let name = input.path().to_string();
     let first = loop {
         match input.next_line()? {
@@ -92,16 +100,25 @@ fn read_results(path: &Path, step: Option<usize>) -> Result<Field> {
             Some(line) => break line.to_vec(),
         }
     };
+    if first.starts_with(b"\xff\xfe") || first.starts_with(b"\xfe\xff") {
+        return Err(input.error("the text is in UTF-16; save it as UTF-8"));
+    }
+    if first.starts_with(b"*") {
+        return Err(input.error("a deck has no results: give the results, and the deck as their mesh"));
+    }
     input.put_back();
     if frd::begins_with(&first) {
         let frd::Results { nodes, displacements, elements, source, step, warnings } = frd::read(input, step)?;
-        return assemble(Parts { name, nodes, displacements, elements, source, step, warnings });
+        return Ok(Parts { name, nodes, displacements, elements, source, step, warnings });
     }
-    input.next_line()?;
-    Err(input.error(format!(
-        "neither CalculiX results (.frd) nor a table id,x,y,z,dx,dy,dz: it begins with '{}'",
-        scan::excerpt(&first)
-    )))
+    let parts = csv::read(input)?;
+    match step {
+        None | Some(1) => Ok(parts),
+        Some(step) => {
+            let why = format!("step {step} is not in it: a table has a single step");
+            Err(Error::Field { path: name, line: 0, why })
+        }
+    }
 }
 
 impl Field {
@@ -117,9 +134,7 @@ impl Field {
             }
         }
         let rows = |values: &[DVec3]| Rows { ids: ids.to_vec(), values: values.to_vec() };
-        let mut parts = Parts::of_table(name.to_string(), rows(points), rows(displacements));
-        parts.source.format = "arrays".into();
-        assemble(parts)
+        assemble(Parts::of_table(name.to_string(), rows(points), rows(displacements)))
     }
 
     /// Numbers of the nodes without a displacement, ascending.

@@ -25,6 +25,11 @@ pub(super) fn trim(text: &[u8]) -> &[u8] {
     &text[..text.len() - blanks]
 }
 
+/// `text` without a byte-order mark.
+pub(super) fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
+}
+
 /// The integer that `text` begins with after blanks, and the rest.
 pub(super) fn integer(text: &[u8]) -> Option<(i64, &[u8])> {
     let text = skip_blanks(text);

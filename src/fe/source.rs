@@ -2,6 +2,21 @@
 
 use serde::Serialize;
 
+/// What kind of file a field came from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub enum Format {
+    /// Arrays, handed over by a program.
+    #[default]
+    #[serde(rename = "arrays")]
+    Arrays,
+    /// CalculiX results.
+    #[serde(rename = "CalculiX results (.frd)")]
+    Results,
+    /// A table of nodes.
+    #[serde(rename = "table of nodes (CSV)")]
+    Table,
+}
+
 /// A block of a results file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Block {
@@ -51,8 +66,8 @@ pub struct ElementCount {
 /// Where a field came from.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Source {
-    /// Format of the file, in words.
-    pub format: String,
+    /// Kind of file.
+    pub format: Format,
     /// Whether it is gzipped.
     pub compressed: bool,
     /// The deck that gave the coordinates.

@@ -18,7 +18,7 @@ pub fn original(name: &str) -> String {
     text
 }
 
-/// Every variant that [`variant`] makes.
+/// The variants that are also shared as files; [`variant`] makes one more, `no_elements`.
 pub const VARIANTS: [&str; 17] = [
     "crlf",
     "disp_metres_only",
@@ -52,6 +52,7 @@ pub fn variant(name: &str) -> String {
         "metres" => base.mapped(|p| p.map(|c| c * 1e-3), |u| u.map(|c| c * 1e-3)),
         "mirrored" => base.mapped(|[x, y, z]| [x, -y, z], |[x, y, z]| [x, -y, z]),
         "nan" => base.with_not_a_number(|id| id % 411 == 7),
+        "no_elements" => base.without_elements(),
         "no_disp" => text(&[&base.lines[..base.step], &[" 9999".into()]]),
         "not_frd" => "solid ascii\nfacet normal 0 0 1\n".into(),
         "other_frame" => base.mapped(|[x, y, z]| [-y + 12.5, x - 3.0, z + 40.0], |[x, y, z]| [-y, x, z]),
@@ -187,6 +188,10 @@ impl Frd {
         }
         let nodes = selected(self.nodes);
         text(&[&self.lines[..=self.nodes[0]], &nodes, &end, self.step_header(), &results, &end, &last])
+    }
+
+    fn without_elements(&self) -> String {
+        text(&[&self.lines[..=self.nodes[1]], &self.lines[self.step..]])
     }
 
     fn truncated(&self) -> String {

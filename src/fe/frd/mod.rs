@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::fe::elements::Elements;
 use crate::fe::input::Input;
 use crate::fe::nodes::Rows;
-use crate::fe::source::{Block, Source, Step};
+use crate::fe::source::{Block, Format, Source, Step};
 use header::{Coding, Component, Record};
 use rows::Extent;
 
@@ -44,7 +44,7 @@ pub(super) fn begins_with(line: &[u8]) -> bool {
 /// # Errors
 /// [`crate::Error::Field`] for malformed lines, a file that ends inside a block, no displacements,
 /// or a step that is not there.
-pub(super) fn read(input: Input, wanted: Option<usize>) -> Result<Results> {
+pub(super) fn read(input: &mut Input, wanted: Option<usize>) -> Result<Results> {
     let mut reader = Reader {
         input,
         wanted,
@@ -59,8 +59,8 @@ pub(super) fn read(input: Input, wanted: Option<usize>) -> Result<Results> {
     reader.finish()
 }
 
-struct Reader {
-    input: Input,
+struct Reader<'a> {
+    input: &'a mut Input,
     wanted: Option<usize>,
     results: Results,
     /// Header of the results to come.
@@ -74,7 +74,7 @@ struct Reader {
     strays: (usize, usize),
 }
 
-impl Reader {
+impl Reader<'_> {
     fn records(&mut self) -> Result<()> {
         while let Some(line) = self.input.next_line()? {
             let (what, announced, extent) = match Record::of(line) {
@@ -116,7 +116,7 @@ impl Reader {
 
     fn nodes(&mut self, block: header::Block) -> Result<Extent> {
         let rows = Some(&mut self.results.nodes);
-        let extent = vectors(&mut self.input, block, 3, rows)?;
+        let extent = vectors(self.input, block, 3, rows)?;
         self.add_block("nodes", extent.rows);
         self.check_count("nodes", block.count, extent);
         Ok(extent)
@@ -126,9 +126,9 @@ impl Reader {
         let elements = &mut self.results.elements;
         let extent = match (block.coding, block.count) {
             (Coding::Single | Coding::Double, Some(count)) => {
-                rows::binary_elements(&mut self.input, count, elements)?
+                rows::binary_elements(self.input, count, elements)?
             }
-            _ => rows::text_elements(&mut self.input, block.coding, elements)?,
+            _ => rows::text_elements(self.input, block.coding, elements)?,
         };
         self.add_block("elements", extent.rows);
         self.check_count("elements", block.count, extent);
@@ -160,7 +160,7 @@ impl Reader {
                 rows = Some(&mut self.results.displacements);
             }
         }
-        let extent = vectors(&mut self.input, block, components.len(), rows)?;
+        let extent = vectors(self.input, block, components.len(), rows)?;
         if let Some(step) = self.results.source.steps.last_mut().filter(|_| name == DISPLACEMENTS) {
             step.rows = extent.rows;
             self.complete_steps += usize::from(extent.closed);
@@ -226,7 +226,7 @@ impl Reader {
 
     fn finish(mut self) -> Result<Results> {
         let source = &mut self.results.source;
-        source.format = "CalculiX results (.frd)".into();
+        source.format = Format::Results;
         source.compressed = self.input.compressed();
         source.elements = self.results.elements.counts();
         self.check_found()?;
@@ -285,6 +285,6 @@ fn vectors(
         (Coding::Single | Coding::Double, Some(count)) => {
             rows::binary_vectors(input, block.coding == Coding::Double, count, components, rows)
         }
-        _ => rows::text_vectors(input, block.coding, rows),
+        _ => rows::text_vectors(input, block.coding, components, rows),
     }
 }

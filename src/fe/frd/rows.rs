@@ -48,13 +48,20 @@ fn id_width(coding: Coding, line: &[u8]) -> usize {
     }
 }
 
-/// Reads text rows of a number and three values into `rows`, or only counts them.
-pub(super) fn text_vectors(input: &mut Input, coding: Coding, mut rows: Option<&mut Rows>) -> Result<Extent> {
+/// Reads text rows of a number and `components` values, of which the first three go into `rows`, or
+/// only counts the rows.
+pub(super) fn text_vectors(
+    input: &mut Input,
+    coding: Coding,
+    components: usize,
+    mut rows: Option<&mut Rows>,
+) -> Result<Extent> {
     let mut extent = Extent { rows: 0, closed: false };
     loop {
         let Some(line) = input.next_line()? else { return Ok(extent) };
         let (mark, width) = (Mark::of(line), id_width(coding, line));
-        let row = if mark == Mark::Row && rows.is_some() { vector_row(line, width) } else { None };
+        let row =
+            if mark == Mark::Row && rows.is_some() { vector_row(line, width, components) } else { None };
         match mark {
             Mark::End => return Ok(Extent { closed: true, ..extent }),
             Mark::Blank | Mark::More => continue,
@@ -82,15 +89,16 @@ fn unexpected(input: &mut Input, expected: &str) -> crate::Error {
     input.error(format!("expected {expected}, found '{found}'"))
 }
 
-fn vector_row(line: &[u8], width: usize) -> Option<(i64, DVec3)> {
+fn vector_row(line: &[u8], width: usize, components: usize) -> Option<(i64, DVec3)> {
     let id = scan::whole_integer(line.get(3..3 + width)?)?;
     let values = &line[3 + width..];
     // One digit stands before the decimal mark: more of them means that the number ran over.
     let overrun = values.iter().take(2).all(u8::is_ascii_digit) && values.len() % 12 != 0;
     let (x, rest) = scan::number(values, true)?;
     let (y, rest) = scan::number(rest, true)?;
-    let (z, _) = scan::number(rest, true)?;
-    (!overrun).then_some((id, DVec3::new(x, y, z)))
+    let (z, rest) = scan::number(rest, true)?;
+    let complete = components > 3 || scan::trim(rest).is_empty();
+    (complete && !overrun).then_some((id, DVec3::new(x, y, z)))
 }
 
 /// Reads `count` binary records of a number and `components` values, keeping the first three.
