@@ -159,7 +159,7 @@ class Field(_Handle):
 
     @classmethod
     def read(cls, path: str, mesh: Optional[str] = None, step: int = 0) -> "Field":
-        """Reads a result file; ``mesh`` is the deck with full-precision nodes, ``step`` 0 the last."""
+        """Reads results; ``mesh`` is the deck with full-precision nodes, ``step`` 0 the last."""
         field = cls()
         mesh_bytes = None if mesh is None else os.fsencode(mesh)
         field._core.bladesmith_field_read(os.fsencode(path), mesh_bytes, step, byref(field._handle))

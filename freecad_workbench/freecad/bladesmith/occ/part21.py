@@ -32,7 +32,7 @@ class Part21Error(ValueError):
 
 
 _DELIMITER = re.compile(r"'[^']*'|/\*.*?\*/|;", re.S)
-_ENTITY = re.compile(r"\s*#(\d+)\s*=\s*([A-Za-z0-9_!]*)")
+_ENTITY = re.compile(r"(?:\s|/\*.*?\*/)*#(\d+)\s*=\s*([A-Za-z0-9_!]*)", re.S)
 _TOKEN = re.compile(
     r"(?:\s|/\*.*?\*/)*(?:(?P<string>(?:'[^']*')+)|#(?P<reference>\d+)|\.(?P<enumeration>\w+)\.|"
     r'(?P<number>[+-]?\d+\.?\d*(?:[Ee][+-]?\d+)?)|(?P<keyword>!?[A-Za-z_]\w*)|"(?P<binary>\w*)"|'

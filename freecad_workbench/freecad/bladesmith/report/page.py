@@ -1,4 +1,4 @@
-"""Writes the page about a morph: one HTML file with its pictures inside, and the pictures beside."""
+"""Writes the page about a morph: an HTML file with its pictures in it, and the pictures beside."""
 
 import base64
 from html import escape

@@ -7,7 +7,7 @@ _TANGENT_DEG = 0.1
 
 
 def state(report: Report, tolerance_mm: float) -> str:
-    """``bad`` where the result should not be used as it is, ``odd`` with warnings, else ``good``."""
+    """``bad``: not to be used as it is; ``odd``: with warnings or opened joints; else ``good``."""
     solid = report.solid
     if report.misses(tolerance_mm) or not solid["closed"] or solid["valid"] is False:
         return "bad"
