@@ -1,8 +1,8 @@
-//! Reads every `*.brep` of a directory and writes it again: `brep_round_trip [--sample] IN
-//! OUT`.
+//! Reads every `*.brep` of a directory and writes it again, to compare with another kernel:
+//! `brep_round_trip [--normalise] [--sample] [--version=N] IN OUT`.
 //!
-//! `--sample` also writes `NAME.json` with points and derivatives of all surfaces and curves, for
-//! comparison with another kernel.
+//! `--normalise` bakes locations into the geometry first, `--version=N` writes another format
+//! version, `--sample` also writes `NAME.json` with points and derivatives of surfaces and curves.
 
 use bladesmith::brep::{self, Brep, Coedge, FaceTopology, Topology};
 use serde_json::{Value, json};
@@ -10,18 +10,26 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
+struct Options {
+    normalise: bool,
+    sample: bool,
+    version: Option<u8>,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let (options, paths): (Vec<String>, Vec<String>) =
         std::env::args().skip(1).partition(|a| a.starts_with("--"));
     let [input, output] = paths.as_slice() else {
-        return Err("usage: brep_round_trip [--sample] IN OUT".into());
+        return Err("usage: brep_round_trip [--normalise] [--sample] [--version=N] IN OUT".into());
     };
     let asked = |option: &str| options.iter().any(|o| o == option);
+    let version = options.iter().find_map(|o| o.strip_prefix("--version=")).map(str::parse).transpose()?;
+    let options = Options { normalise: asked("--normalise"), sample: asked("--sample"), version };
     let mut failed = false;
     for entry in std::fs::read_dir(input)? {
         let path = entry?.path();
         if path.extension().is_some_and(|e| e == "brep")
-            && let Err(error) = round_trip(&path, Path::new(output), asked("--sample"))
+            && let Err(error) = round_trip(&path, Path::new(output), &options)
         {
             eprintln!("{}: {error}", path.display());
             failed = true;
@@ -30,21 +38,29 @@ fn main() -> Result<(), Box<dyn Error>> {
     if failed { Err("not every file could be written again".into()) } else { Ok(()) }
 }
 
-fn round_trip(path: &Path, output: &Path, sample: bool) -> Result<(), Box<dyn Error>> {
+fn round_trip(path: &Path, output: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
-    let name = path.file_name().ok_or("no file name")?;
+    let name = path.file_name().ok_or("no file name")?.to_string_lossy();
     let start = Instant::now();
-    let brep = brep::parse(&name.to_string_lossy(), &text)?;
+    let mut brep = brep::parse(&name, &text)?;
     let parsed = start.elapsed();
+    if options.normalise {
+        brep.normalise()?;
+    }
+    brep.version = options.version.unwrap_or(brep.version);
     let start = Instant::now();
     let written = brep.write();
-    let (name, bytes, seconds) = (name.to_string_lossy(), text.len(), start.elapsed());
-    println!("{name}: {bytes} bytes, parsed in {parsed:?}, written in {seconds:?}");
+    println!("{name}: {} bytes, parsed in {parsed:?}, written in {:?}", text.len(), start.elapsed());
     std::fs::write(output.join(&*name), written)?;
-    if sample {
+    if options.sample {
         std::fs::write(output.join(&*name).with_extension("json"), samples(&brep)?.to_string())?;
     }
     Ok(())
+}
+
+/// A parameter inside a range, off its middle and its ends, where splines may have knots.
+fn inside([a, b]: [f64; 2], i: i32, n: i32) -> f64 {
+    a + (b - a) * (f64::from(i) + 0.37) / f64::from(n)
 }
 
 /// Parameters, points and derivatives of all faces and edges, in order.
@@ -52,19 +68,18 @@ fn samples(brep: &Brep) -> Result<Value, Box<dyn Error>> {
     let topology = Topology::new(brep)?;
     let faces: Vec<Value> = topology.faces.iter().map(|f| face_samples(brep, f)).collect();
     let edges = topology.edges.iter().map(|edge| {
-        let curve = edge.curve.map(|c| &brep.curves[c]);
-        let points = curve.map(|curve| {
-            let [a, b] = edge.range;
-            let sample = |i: i32| {
-                let t = a + (b - a) * f64::from(i) / 8.0;
-                let derivatives = curve.derivatives(t).map(|d| d.to_array());
-                json!([[t], derivatives])
-            };
-            (0..=8).map(sample).collect::<Vec<_>>()
-        });
         let vertices = edge.vertices.map(|v| v.map(|v| topology.vertices[v].point.to_array()));
         let faces: Vec<usize> = edge.coedges.iter().map(|c| c.0).collect();
-        json!({"kind": curve.map(|c| c.kind_name()), "points": points, "vertices": vertices, "faces": faces})
+        let (mut points, mut ends) = (Vec::new(), Vec::new());
+        if let Some(curve) = edge.curve.map(|c| &brep.curves[c]) {
+            for i in 0..8 {
+                let t = inside(edge.range, i, 8);
+                let derivatives = curve.derivatives(t).map(|d| d.to_array());
+                points.push(json!([[t], derivatives]));
+            }
+            ends.extend(edge.range.map(|t| json!([[t], [curve.point(t).to_array()]])));
+        }
+        json!({"points": points, "ends": ends, "vertices": vertices, "faces": faces})
     });
     let edges: Vec<Value> = edges.collect();
     let solids: Vec<&[usize]> = topology.solids.iter().map(|s| &s.faces[..]).collect();
@@ -73,31 +88,37 @@ fn samples(brep: &Brep) -> Result<Value, Box<dyn Error>> {
 
 fn face_samples(brep: &Brep, face: &FaceTopology) -> Value {
     let surface = &brep.surfaces[face.surface];
-    let [u, v] = window(brep, face);
-    let mut points = Vec::new();
-    for i in 0..=6 {
-        for j in 0..=6 {
-            let (u, v) = (u[0] + (u[1] - u[0]) * i as f64 / 6.0, v[0] + (v[1] - v[0]) * j as f64 / 6.0);
+    let window = window(brep, face);
+    let (mut points, mut ends) = (Vec::new(), Vec::new());
+    for i in 0..6 {
+        for j in 0..6 {
+            let (u, v) = (inside(window[0], i, 6), inside(window[1], j, 6));
             let d = surface.derivatives(u, v);
             let derivatives = [d.s, d.u, d.v, d.uu, d.uv, d.vv].map(|d| d.to_array());
             points.push(json!([[u, v], derivatives]));
         }
     }
-    let wire = |wire: &Vec<Coedge>| wire.iter().map(|c| trace(brep, c)).collect();
+    for u in window[0] {
+        ends.extend(window[1].map(|v| json!([[u, v], [surface.point(u, v).to_array()]])));
+    }
+    let wire = |wire: &Vec<Coedge>| wire.iter().map(|c| trace(brep, face.surface, c)).collect();
     let traces: Vec<Vec<Value>> = face.wires.iter().map(wire).collect();
-    json!({"kind": surface.kind_name(), "reversed": face.reversed, "points": points, "traces": traces})
+    json!({"kind": surface.kind_name(), "reversed": face.reversed, "points": points, "ends": ends,
+        "traces": traces})
 }
 
-/// Points of a coedge's curve in the surface's parameters.
-fn trace(brep: &Brep, coedge: &Coedge) -> Value {
-    let ends = coedge.pcurve.map(|p| {
-        let at = |s: f64| {
-            let t = coedge.range[0] + (coedge.range[1] - coedge.range[0]) * s;
-            brep.curves2d[p].derivatives(t).map(|d| d.to_array())
-        };
-        [0.0, 0.25, 0.5, 0.75, 1.0].map(at)
-    });
-    json!({"edge": coedge.edge, "reversed": coedge.reversed, "range": coedge.range, "points": ends})
+/// Points of a coedge's curve in the surface's parameters, and the surface's points there.
+fn trace(brep: &Brep, surface: usize, coedge: &Coedge) -> Value {
+    let mut points = Vec::new();
+    if let Some(pcurve) = coedge.pcurve {
+        for i in 0..4 {
+            let t = inside(coedge.range, i, 4);
+            let [uv, derivative, _] = brep.curves2d[pcurve].derivatives(t);
+            let point = brep.surfaces[surface].point(uv.x, uv.y).to_array();
+            points.push(json!([[t], uv.to_array(), derivative.to_array(), point]));
+        }
+    }
+    json!({"edge": coedge.edge, "reversed": coedge.reversed, "range": coedge.range, "points": points})
 }
 
 /// The box of the face's parameter curves; a unit square where there are none.

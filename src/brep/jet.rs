@@ -25,22 +25,25 @@ const BINOMIAL: [[f64; 5]; 5] = [
     [1.0, 4.0, 6.0, 4.0, 1.0],
 ];
 
-/// Derivatives of a NURBS curve (A4.2).
+/// Derivatives of a NURBS curve (A4.2). Sums run over differences from a pole of the span, so that
+/// high derivatives on short spans do not lose the digits of the position.
 pub fn nurbs_curve<P: Point>(curve: &NurbsCurve<P>, t: f64, order: usize) -> CurveJet<P> {
     let knots = curve.knots();
     let p = knots.degree();
     let span = knots.span(t);
     let mut n = [0.0; (CURVE_ORDER + 1) * (MAX_DEGREE + 1)];
     knots.basis_derivatives(span, t, order, &mut n);
+    let weight = |i: usize| curve.weights().map_or(1.0, |w| w[i]);
+    let origin = curve.poles()[span];
     let (mut jet, mut w) = ([P::default(); CURVE_ORDER + 1], [0.0; CURVE_ORDER + 1]);
     for k in 0..=order {
         for j in 0..=p {
-            let i = span - p + j;
-            let b = n[k * (p + 1) + j] * curve.weights().map_or(1.0, |w| w[i]);
-            jet[k] = jet[k] + curve.poles()[i] * b;
-            w[k] += b;
+            let (i, b) = (span - p + j, n[k * (p + 1) + j]);
+            jet[k] = jet[k] + (curve.poles()[i] - origin) * (b * weight(i));
+            w[k] += b * (weight(i) - weight(span));
         }
     }
+    w[0] += weight(span);
     if curve.weights().is_some() {
         for k in 0..=order {
             for i in 1..=k {
@@ -49,10 +52,11 @@ pub fn nurbs_curve<P: Point>(curve: &NurbsCurve<P>, t: f64, order: usize) -> Cur
             jet[k] = jet[k] / w[0];
         }
     }
+    jet[0] = jet[0] + origin;
     jet
 }
 
-/// Derivatives of a NURBS surface (A4.4).
+/// Derivatives of a NURBS surface (A4.4), summed as those of a curve.
 pub fn nurbs_surface(surface: &NurbsSurface, u: f64, v: f64, order: usize) -> SurfaceJet {
     let (ku, kv) = (surface.knots_u(), surface.knots_v());
     let (p, q) = (ku.degree(), kv.degree());
@@ -61,24 +65,30 @@ pub fn nurbs_surface(surface: &NurbsSurface, u: f64, v: f64, order: usize) -> Su
     let mut nv = nu;
     ku.basis_derivatives(su, u, order, &mut nu);
     kv.basis_derivatives(sv, v, order, &mut nv);
+    let weight = |i: usize| surface.weights().map_or(1.0, |w| w[i]);
+    let last = su * kv.len() + sv;
+    let origin = surface.poles()[last];
     let mut jet = SurfaceJet::default();
     let mut w = [[0.0; SURFACE_ORDER + 1]; SURFACE_ORDER + 1];
-    for k in 0..=order {
-        for l in 0..=order - k {
-            for i in 0..=p {
-                let row = (su - p + i) * kv.len() + sv - q;
-                for j in 0..=q {
-                    let weight = surface.weights().map_or(1.0, |w| w[row + j]);
-                    let b = nu[k * (p + 1) + i] * nv[l * (q + 1) + j] * weight;
-                    jet[k][l] += surface.poles()[row + j] * b;
-                    w[k][l] += b;
+    for i in 0..=p {
+        let row = (su - p + i) * kv.len() + sv - q;
+        for j in row..=row + q {
+            let pole = (surface.poles()[j] - origin) * weight(j);
+            let excess = weight(j) - weight(last);
+            for k in 0..=order {
+                for l in 0..=order - k {
+                    let b = nu[k * (p + 1) + i] * nv[l * (q + 1) + j - row];
+                    jet[k][l] += pole * b;
+                    w[k][l] += excess * b;
                 }
             }
         }
     }
+    w[0][0] += weight(last);
     if surface.weights().is_some() {
         divide(&mut jet, &w, order);
     }
+    jet[0][0] += origin;
     jet
 }
 

@@ -8,6 +8,7 @@ mod curve;
 mod jet;
 mod location;
 mod model;
+mod normalise;
 mod parse;
 mod parse_geometry;
 mod scan;
@@ -15,6 +16,7 @@ mod space;
 mod spline;
 mod surface;
 mod topology;
+mod transform;
 mod write;
 
 pub use curve::{Curve, Curve2d, Curve3d};

@@ -1,1 +1,31 @@
-//! ffi
+//! The C ABI: opaque handles, status numbers, texts and whole arrays; the only unsafe code.
+//!
+//! Doc comments of the exported functions are written for C: they become `bladesmith.h`, which
+//! also states the conventions (`cbindgen.toml`). Plumbing first ([`guard`], [`handle`],
+//! [`status`], [`slice`], [`text`], [`progress`]), then one file per noun.
+//!
+//! All pointers are the caller's promise: those that can be checked (NULL, alignment, length) are
+//! checked, the rest (that the memory is there, that a handle is alive) cannot be.
+
+// The header states, once for all functions, what a caller must hold.
+#![allow(clippy::missing_safety_doc)]
+
+pub mod field;
+mod guard;
+mod handle;
+pub mod library;
+pub mod morph;
+pub mod options;
+pub mod part;
+mod part_info;
+pub mod progress;
+mod slice;
+pub mod status;
+mod text;
+
+pub use field::Field;
+pub use morph::Morphed;
+pub use options::MorphOptions;
+pub use part::Part;
+pub use progress::Progress;
+pub use status::Status;
