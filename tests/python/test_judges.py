@@ -9,6 +9,8 @@ from freecad.bladesmith import native
 from freecad.bladesmith.occ import step
 
 RELATIVE = 1e-12
+EPSILON = 2.0**-52
+ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 GRID = 7
 
 
@@ -31,10 +33,10 @@ class Evaluation(unittest.TestCase):
             ]
             ours = part.evaluate(index, parameters, 2)
             theirs = numpy.array([derivatives(face.Surface, u, v) for u, v in parameters])
-            scale = numpy.abs(theirs).max(axis=(0, 2), keepdims=True)
-            scale[:, 1:] = numpy.maximum(scale[:, 1:], 1e-6 * scale[:, :1])
-            wrong = (numpy.abs(ours - theirs) / scale).max()
-            self.assertLessEqual(wrong, RELATIVE, f"{name}: Face{index}, {face.Surface.TypeId}")
+            allowed = RELATIVE * numpy.abs(theirs).max(axis=(0, 2))
+            allowed += 16 * EPSILON * numpy.abs(theirs[:, 0]).max() * amplification(face.Surface)
+            excess = (numpy.abs(ours - theirs).max(axis=(0, 2)) / allowed).max()
+            self.assertLessEqual(excess, 1, f"{name}: Face{index}, {face.Surface.TypeId}")
 
     def test_morphed_faces_of_the_small_cases(self):
         for name in ("base", "sphere"):
@@ -63,11 +65,26 @@ class Evaluation(unittest.TestCase):
 
 def derivatives(surface, u, v):
     """S, Su, Sv, Suu, Suv, Svv of Open CASCADE."""
-    orders = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
     return [
         list(surface.value(u, v) if order == (0, 0) else surface.getDN(u, v, *order))
-        for order in orders
+        for order in ORDERS
     ]
+
+
+def amplification(surface):
+    """How much differences of poles, rounded to doubles, are enlarged in each derivative."""
+    import numpy
+
+    if not hasattr(surface, "getUKnots"):
+        return numpy.ones(len(ORDERS))
+    per_u, per_v = (
+        degree / min(numpy.diff(knots))
+        for degree, knots in (
+            (surface.UDegree, surface.getUKnots()),
+            (surface.VDegree, surface.getVKnots()),
+        )
+    )
+    return numpy.array([per_u**a * per_v**b for a, b in ORDERS])
 
 
 def blade():
