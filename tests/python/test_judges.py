@@ -6,7 +6,6 @@ import common
 from common import Part as FreeCADPart
 from common import morph, packed
 from freecad.bladesmith import native
-from freecad.bladesmith.occ import step
 
 RELATIVE = 1e-12
 EPSILON = 2.0**-52
@@ -45,11 +44,6 @@ class Evaluation(unittest.TestCase):
 
     def test_morphed_faces_of_the_blade(self):
         self.assert_equal_surfaces(blade().solid, "blade")
-
-    def test_faces_as_they_come_in(self):
-        self.assert_equal_surfaces(
-            step.read(str(common.EXAMPLE / "hot.step.gz")).shape, "hot blade"
-        )
 
     def test_faces_of_every_elementary_kind(self):
         solids = {
