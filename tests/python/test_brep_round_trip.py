@@ -155,7 +155,9 @@ class RoundTrip(unittest.TestCase):
         cls.directory = pathlib.Path(cls.temporary.name)
         (cls.directory / "texts").mkdir()
         cls.shapes = dict(brep_zoo.shapes())
-        cls.steps = {f"step_{path.parent.name}_{path.stem}": read_step(path) for path in step_files()}
+        cls.steps = {
+            f"step_{path.parent.name}_{path.stem}": read_step(path) for path in step_files()
+        }
         cls.shapes.update(cls.steps)
         for name, shape in cls.shapes.items():
             cls.text_file("texts", name).write_text(shape.exportBrepToString())
@@ -242,7 +244,9 @@ class RoundTrip(unittest.TestCase):
                 what = f"face {number}, {sample['kind']}, at {uv}"
                 self.check_surface_point(what, face, uv, derivatives)
             for uv, (point,) in sample["ends"]:
-                self.assert_close(f"face {number}, {sample['kind']}, at {uv}", point, face.valueAt(*uv))
+                self.assert_close(
+                    f"face {number}, {sample['kind']}, at {uv}", point, face.valueAt(*uv)
+                )
 
     def check_surface_point(self, what, face, uv, derivatives):
         surface, first, second = face.Surface, face.derivative1At(*uv), face.derivative2At(*uv)
@@ -252,14 +256,19 @@ class RoundTrip(unittest.TestCase):
         if third_derivative_is_approximate(surface):
             expected = expected[:3]
         for order, a, b in zip(orders, derivatives, expected):
-            self.assert_close(f"{what}, derivative {order}", a, b, self.surface_scale(surface, order))
+            self.assert_close(
+                f"{what}, derivative {order}", a, b, self.surface_scale(surface, order)
+            )
 
     def surface_scale(self, surface, orders):
         """Size of the terms that sum up to a derivative: rounding is relative to it."""
         if isinstance(surface, Part.OffsetSurface):
             # The normal's k-th derivative has the basis' next one.
             basis = surface.BasisSurface
-            return max(self.surface_scale(basis, orders) * self.surface_scale(basis, extra) for extra in ((1, 0), (0, 1)))
+            return max(
+                self.surface_scale(basis, orders) * self.surface_scale(basis, extra)
+                for extra in ((1, 0), (0, 1))
+            )
         if isinstance(surface, Part.BSplineSurface):
             knots = [(surface.UDegree, surface.getUKnots()), (surface.VDegree, surface.getVKnots())]
             poles = [pole for row in surface.getPoles() for pole in row]
@@ -272,7 +281,9 @@ class RoundTrip(unittest.TestCase):
 
     def curve_scale(self, curve, order):
         if isinstance(curve, Part.BSplineCurve):
-            return largest(curve.getPoles()) * power_scale([(curve.Degree, curve.getKnots())], [order])
+            return largest(curve.getPoles()) * power_scale(
+                [(curve.Degree, curve.getKnots())], [order]
+            )
         return 1.0
 
     def test_curves_evaluate_as_in_open_cascade(self):
@@ -287,8 +298,12 @@ class RoundTrip(unittest.TestCase):
                 what = f"edge {number}, at {t}"
                 scales = [self.curve_scale(edge.Curve, k) for k in (1, 2)]
                 self.assert_close(what, point, edge.valueAt(t))
-                self.assert_close(f"{what}, first derivative", first, edge.derivative1At(t), scales[0])
-                self.assert_close(f"{what}, second derivative", second, edge.derivative2At(t), scales[1])
+                self.assert_close(
+                    f"{what}, first derivative", first, edge.derivative1At(t), scales[0]
+                )
+                self.assert_close(
+                    f"{what}, second derivative", second, edge.derivative2At(t), scales[1]
+                )
 
     def test_topology_is_open_cascades(self):
         self.for_each_sample(self.check_topology)
@@ -304,7 +319,9 @@ class RoundTrip(unittest.TestCase):
         for i, (edge, sample) in enumerate(zip(shape.Edges, samples["edges"])):
             self.assertEqual(users[i], set(sample["faces"]), f"edge {i + 1}")
             if edge.Orientation == "Forward" and not any(v is None for v in sample["vertices"]):
-                for vertex, point in zip((edge.firstVertex(), edge.lastVertex()), sample["vertices"]):
+                for vertex, point in zip(
+                    (edge.firstVertex(), edge.lastVertex()), sample["vertices"]
+                ):
                     self.assert_close(f"edge {i + 1}, vertex", point, vertex.Point)
         faces = {face.hashCode(): i for i, face in enumerate(shape.Faces)}
         solids = [[faces[face.hashCode()] for face in solid.Faces] for solid in shape.Solids]
@@ -317,7 +334,12 @@ class RoundTrip(unittest.TestCase):
             for edge, trace in zip(wire.SubShapes, wire_traces):
                 self.assertEqual(edges[edge.hashCode()], trace["edge"])
                 for (t,), uv, tangent, point in trace["points"]:
-                    self.check_trace(f"edge {trace['edge'] + 1}, trace at {t}", face, edge, (t, uv, tangent, point))
+                    self.check_trace(
+                        f"edge {trace['edge'] + 1}, trace at {t}",
+                        face,
+                        edge,
+                        (t, uv, tangent, point),
+                    )
 
     def check_trace(self, what, face, edge, sample):
         t, uv, tangent, point = sample

@@ -1,0 +1,83 @@
+# Every verb does its own set-up: make demo and make test work on a fresh Debian 12 with Rust, gcc
+# and Python. CI calls only these verbs.
+
+PYTHON ?= /usr/bin/python3
+PREFIX ?= /usr/local
+VERSION := $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' Cargo.toml | head -n 1)
+
+EXAMPLE := examples/compressor_blade
+DEMO := build/demo
+TEST_PYTHON := build/venv/bin/python
+RUFF := build/venv/bin/ruff
+PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches
+
+export PYTHON
+
+.PHONY: help setup setup-run build test test-rust test-python awkward-files demo lint bench dist install clean
+
+help:
+	@echo "make demo     morph a compressor blade; leaves STEP, report and pictures in $(DEMO)"
+	@echo "make test     run every test"
+	@echo "make build    build the library (target/release)"
+	@echo "make install  install library and command below PREFIX (now $(PREFIX))"
+	@echo "make lint     check format and lints"
+	@echo "make bench    measure times and memory"
+	@echo "make dist     pack the sources into build/"
+	@echo "make setup    install what the tests need"
+
+setup:
+	@bash .ci/setup test
+
+setup-run:
+	@bash .ci/setup run
+
+build: setup-run
+	cargo build --release --lib --locked
+
+test: setup build lint test-rust test-python
+	@echo "All tests passed."
+
+test-rust: setup
+	cargo test --release --locked
+
+awkward-files: setup
+	@cargo test --release --locked --quiet --test p5_files >/dev/null
+
+test-python: setup build awkward-files
+	cd tests/python && ../../$(TEST_PYTHON) -m unittest discover --start-directory . --pattern 'test_*.py'
+
+demo: build
+	@mkdir -p $(DEMO)
+	@echo "Morphing $(EXAMPLE) from hot to cold ..."
+	@freecad_workbench/bladesmith morph $(EXAMPLE)/hot.step.gz $(EXAMPLE)/blade.frd.gz \
+	    --mesh $(EXAMPLE)/blade.inp.gz --factor -1 --output $(DEMO)/cold.step \
+	    --json $(DEMO)/report.json --report $(DEMO)/report
+	@echo "The results are in $(abspath $(DEMO)):"
+	@echo "  cold.step           the cold solid"
+	@echo "  report.json         all figures"
+	@echo "  report/report.html  the page, and its pictures beside it"
+
+lint: setup
+	cargo fmt --check
+	cargo clippy --release --locked --all-targets --quiet -- -D warnings
+	$(RUFF) check --quiet $(PYTHON_SOURCES)
+	$(RUFF) format --check --quiet $(PYTHON_SOURCES)
+
+bench: build
+	$(PYTHON) benches/morph_command.py
+
+dist:
+	@mkdir -p build
+	git archive --format=tar --prefix=bladesmith-$(VERSION)/ HEAD | gzip -9n > build/bladesmith-$(VERSION).tar.gz
+	@echo "build/bladesmith-$(VERSION).tar.gz"
+
+install: build
+	cmake/install.sh $(PREFIX)
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/bladesmith
+	cd freecad_workbench && find freecad -type f ! -name '*.pyc' \
+	    -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/bladesmith/{} \;
+	install -m 755 freecad_workbench/bladesmith $(DESTDIR)$(PREFIX)/share/bladesmith/bladesmith
+	ln -sf ../share/bladesmith/bladesmith $(DESTDIR)$(PREFIX)/bin/bladesmith
+
+clean:
+	rm -rf build target

@@ -1,0 +1,7 @@
+"""``python3 -m freecad.bladesmith``: the same commands as ``bladesmith``."""
+
+import sys
+
+from freecad.bladesmith.cli import main
+
+sys.exit(main())

@@ -1,0 +1,229 @@
+"""The pictures of a morph: part before and after, colour maps, histograms."""
+
+from dataclasses import dataclass, replace
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy  # noqa: E402
+from matplotlib import colors, pyplot  # noqa: E402
+
+from ..occ.tessellation import Tessellation  # noqa: E402
+from . import raster, shading  # noqa: E402
+from .nodes import at_mesh_points  # noqa: E402
+from .refinement import refined  # noqa: E402
+
+_SIZE = (640, 620)
+"""Largest width and height of one view, in pixels of the finished picture."""
+
+_DPI = 130
+_AZIMUTHS = 24
+_ELEVATION = 0.42
+_GAP, _TITLE = 24, 26
+"""Pixels between panels and above them."""
+
+_DISPLACEMENT_COLOURS = ("turbo", 0.06, 0.94)
+_DEVIATION_COLOURS = ("YlOrRd", 0.0, 1.0)
+_SMALLEST_MM = 1e-9
+_LONGEST_SIDE = 1 / 80
+"""Longest side of a triangle that carries colours, relative to the part's diagonal."""
+
+_FONT = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#5a6470",
+    "axes.titlesize": 10,
+    "axes.titlelocation": "left",
+}
+
+
+@dataclass
+class Scene:
+    """Meshes of the part before and after, with what the nodes say, seen from two sides."""
+
+    hot: Tessellation
+    cold: Tessellation
+    displacement_mm: numpy.ndarray
+    """(n, 3) at the hot mesh's points."""
+    deviation_mm: numpy.ndarray
+    """(n,) at the hot mesh's points."""
+
+    @classmethod
+    def of(cls, hot: Tessellation, cold: Tessellation, nodes: dict) -> "Scene":
+        deviation = numpy.linalg.norm(nodes["deviations"], axis=1)
+        size = float(numpy.linalg.norm(numpy.ptp(hot.points, axis=0)))
+        hot = refined(hot, size * _LONGEST_SIDE)
+        return cls(
+            hot,
+            cold,
+            at_mesh_points(hot, nodes, nodes["displacements"]),
+            at_mesh_points(hot, nodes, deviation),
+        )
+
+    def cameras(self) -> list:
+        """Two opposite views, turned so that they show most of what moves; the longest side up."""
+        both = numpy.concatenate((self.hot.points, self.cold.points))
+        extent = numpy.ptp(both, axis=0)
+        up = numpy.zeros(3)
+        up[int(numpy.argmax(extent)) if extent.max() > 1.2 * numpy.median(extent) else 2] = 1
+        towards = self._best_direction(up)
+        size = tuple(n * shading.OVERSAMPLING for n in _SIZE)
+        return [
+            raster.Camera.looking(both, sign * towards + _ELEVATION * up, up, size)
+            for sign in (1, -1)
+        ]
+
+    def _best_direction(self, up) -> numpy.ndarray:
+        """The level direction that sees the largest area, weighted by its displacement."""
+        side = numpy.roll(up, 1)
+        angles = numpy.arange(_AZIMUTHS) * 2 * numpy.pi / _AZIMUTHS
+        directions = numpy.outer(numpy.cos(angles), side)
+        directions += numpy.outer(numpy.sin(angles), numpy.cross(up, side))
+        a, b, c = (self.hot.points[self.hot.triangles[:, k]] for k in range(3))
+        moved = numpy.linalg.norm(numpy.nan_to_num(self.displacement_mm), axis=1)
+        weights = moved[self.hot.triangles].mean(axis=1) + 0.2 * moved.mean()
+        seen = numpy.maximum(numpy.cross(b - a, c - a) @ (directions + _ELEVATION * up).T, 0)
+        return directions[int(numpy.argmax(weights @ seen + weights @ numpy.roll(seen, 12, 1)))]
+
+
+def part_picture(scene: Scene):
+    """A figure of the part before and after, in the same view."""
+    camera = scene.cameras()[0]
+    before = shading.part_image(raster.draw(scene.hot, camera))
+    after = shading.part_image(raster.draw(scene.cold, camera))
+    return _panels([(before, "before"), (after, "after")], camera)
+
+
+def exaggerated_picture(scene: Scene) -> tuple:
+    """A figure of the moved part, the movement enlarged, with the input's edges; and the scale."""
+    moved = numpy.nan_to_num(scene.displacement_mm)
+    size = numpy.linalg.norm(numpy.ptp(scene.hot.points, axis=0))
+    largest = numpy.linalg.norm(moved, axis=1).max(initial=0)
+    scale = _round_down(0.08 * size / largest) if largest > 0 else 1.0
+    mesh = replace(scene.hot, points=scene.hot.points + scale * moved)
+    both = Scene(scene.hot, mesh, scene.displacement_mm, scene.deviation_mm)
+    panels = []
+    for camera in both.cameras():
+        drawing = raster.draw(mesh, camera)
+        panels.append((shading.part_image(drawing, ghost=raster.draw(scene.hot, camera)), ""))
+    return _panels(panels, both.cameras()[0]), scale
+
+
+def map_pictures(scene: Scene) -> dict:
+    """Colour maps of displacement and deviation, each from two sides."""
+    drawings = [raster.draw(scene.hot, camera) for camera in scene.cameras()]
+    moved = numpy.linalg.norm(scene.displacement_mm, axis=1)
+    missed = scene.deviation_mm
+    return {
+        "displacement": _map_figure(
+            drawings, moved, _linear(moved), _DISPLACEMENT_COLOURS, "displacement, mm"
+        ),
+        "deviation": _map_figure(
+            drawings, missed, _logarithmic(missed), _DEVIATION_COLOURS, "deviation, mm"
+        ),
+    }
+
+
+def histogram_picture(nodes: dict, tolerance_mm: float):
+    """Numbers of nodes by deviation and by displacement."""
+    with pyplot.rc_context(_FONT):
+        figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 2.9), dpi=_DPI)
+        deviation = numpy.linalg.norm(nodes["deviations"], axis=1)
+        deviation = numpy.maximum(deviation, _SMALLEST_MM)
+        edges = numpy.geomspace(deviation.min() * 0.99, max(deviation.max() * 1.01, 1e-8), 60)
+        left.hist(deviation, edges, color="#3b6ea5")
+        left.set_xscale("log")
+        left.axvline(tolerance_mm, color="#b3261e", linewidth=1.2)
+        left.annotate(
+            f"tolerance {tolerance_mm:g}",
+            (tolerance_mm, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(-4, -10),
+            textcoords="offset points",
+            ha="right",
+            color="#b3261e",
+        )
+        left.set(title="Deviation at the nodes", xlabel="mm", ylabel="nodes")
+        moved = numpy.linalg.norm(nodes["displacements"], axis=1)
+        right.hist(moved, 60, color="#3b6ea5")
+        right.set(title="Displacement of the nodes", xlabel="mm", ylabel="nodes")
+        figure.tight_layout()
+    return figure
+
+
+def _figure(images, colour_bar: bool):
+    """A figure with a panel as large as each image, side by side, and room for a colour bar."""
+    widths = [image.shape[1] for image in images]
+    height = max(image.shape[0] for image in images)
+    bar = 140 if colour_bar else 0
+    total = sum(widths) + _GAP * (len(images) - 1) + bar
+    figure = pyplot.figure(figsize=(total / _DPI, (height + _TITLE) / _DPI), dpi=_DPI)
+    left, axes = 0, []
+    for width, image in zip(widths, images):
+        share = image.shape[0] / (height + _TITLE)
+        axis = figure.add_axes((left / total, 0, width / total, share))
+        axis.imshow(image, interpolation="none", aspect="auto")
+        axis.set_axis_off()
+        axes.append(axis)
+        left += width + _GAP
+    bar_axis = figure.add_axes((left / total, 0.12, 18 / total, 0.7)) if colour_bar else None
+    return figure, axes, bar_axis
+
+
+def _panels(panels, camera: raster.Camera):
+    with pyplot.rc_context(_FONT):
+        figure, axes, _ = _figure([image for image, _title in panels], colour_bar=False)
+        for axis, (_image, title) in zip(axes, panels):
+            axis.set_title(title, loc="center", color="#39424e")
+        _scale_bar(axes[0], camera)
+    return figure
+
+
+def _map_figure(drawings, values, scale, colour_range, label: str):
+    name, first, last = colour_range
+    whole = pyplot.get_cmap(name)
+    colour_map = colors.ListedColormap(whole(numpy.linspace(first, last, 256)))
+    images = [
+        shading.map_image(drawing, values, lambda v: colour_map(scale(v))) for drawing in drawings
+    ]
+    with pyplot.rc_context(_FONT):
+        figure, axes, bar_axis = _figure(images, colour_bar=True)
+        _scale_bar(axes[0], drawings[0].camera)
+        figure.colorbar(pyplot.cm.ScalarMappable(scale, colour_map), cax=bar_axis, label=label)
+    return figure
+
+
+def _scale_bar(axis, camera: raster.Camera) -> None:
+    pixel = camera.pixel_mm * shading.OVERSAMPLING
+    width, height = camera.width / shading.OVERSAMPLING, camera.height / shading.OVERSAMPLING
+    length = _round_down(0.25 * width * pixel)
+    start, row = 0.03 * width, 0.965 * height
+    axis.plot((start, start + length / pixel), (row, row), color="#39424e", linewidth=2)
+    axis.text(start, row - 6, f"{length:g} mm", color="#39424e", va="bottom", fontsize=8)
+
+
+def _round_down(value: float) -> float:
+    """The next smaller of 1, 2, 5 times a power of ten."""
+    power = 10.0 ** numpy.floor(numpy.log10(value))
+    return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
+
+
+def _linear(values):
+    largest = numpy.nanmax(values, initial=0)
+    return colors.Normalize(0, largest if largest > 0 else 1)
+
+
+def _logarithmic(values):
+    known = values[numpy.isfinite(values)]
+    top = max(float(known.max(initial=0)), 10 * _SMALLEST_MM)
+    bottom = max(float(numpy.quantile(known, 0.02)) if len(known) else 0, top / 1e4, _SMALLEST_MM)
+    return colors.LogNorm(bottom, max(top, 10 * bottom), clip=True)
+
+
+def save(figure, path: str) -> None:
+    """Writes a figure as PNG, the same bytes for the same picture, and forgets it."""
+    figure.savefig(path, metadata={"Software": None})
+    pyplot.close(figure)

@@ -1,0 +1,75 @@
+"""What a report comes to, in words."""
+
+from ..model import Report
+
+_TANGENT_DEG = 0.1
+"""A tangent joint opened by more than this is named."""
+
+
+def state(report: Report, tolerance_mm: float) -> str:
+    """``bad``: not to be used as it is; ``odd``: with warnings or opened joints; else ``good``."""
+    solid = report.solid
+    if report.misses(tolerance_mm) or not solid["closed"] or solid["valid"] is False:
+        return "bad"
+    return "odd" if report.warnings or solid["folded"] or opened(report) else "good"
+
+
+def opened(report: Report) -> list:
+    """Tangent edges whose angle grew beyond what still counts as tangent."""
+    return [
+        edge
+        for edge in report.edges
+        if edge.tangent and edge.angle_deg.after > edge.angle_deg.before + _TANGENT_DEG
+    ]
+
+
+def sentences(report: Report, tolerance_mm: float) -> list[str]:
+    """The verdict: the main sentence first."""
+    solid = report.solid
+    deviation = report.deviation_mm
+    worst = report.worst_face()
+    place = f" (on {worst.name})" if worst else ""
+    said = f"The largest deviation at the nodes is {length(deviation.max)} mm{place}"
+    if report.misses(tolerance_mm):
+        found = [f"{said}: beyond the tolerance of {tolerance_mm:g} mm."]
+    else:
+        found = [f"{said}, within the tolerance of {tolerance_mm:g} mm."]
+    found.append(_solid_sentence(solid))
+    edge = report.widest_edge()
+    if edge:
+        found.append(
+            f"No edge is open by more than {length(edge.gap_mm.after)} mm "
+            f"(Edge{edge.index}; {length(edge.gap_mm.before)} mm before)."
+        )
+    found.append(_tangency_sentence(report))
+    if report.unmatched:
+        found.append(f"{report.unmatched} nodes of the mesh's surface lie on no face.")
+    return found
+
+
+def _solid_sentence(solid: dict) -> str:
+    judged = {
+        True: "Open CASCADE finds the solid valid",
+        False: "Open CASCADE finds the solid not valid",
+        None: "The solid was not judged",
+    }[solid["valid"]]
+    closed = "closed" if solid["closed"] else "open"
+    folds = f"{solid['folded']} samples are folded" if solid["folded"] else "nothing is folded"
+    return f"{judged}; it is {closed}, has {solid['faces']} faces, and {folds}."
+
+
+def _tangency_sentence(report: Report) -> str:
+    tangent = [edge for edge in report.edges if edge.tangent]
+    if not tangent:
+        return "The part has no tangent joints."
+    bad = opened(report)
+    if bad:
+        names = ", ".join(f"Edge{edge.index}" for edge in bad[:8])
+        held = " (beside held faces)" if all(edge.held for edge in bad) else ""
+        return f"{len(bad)} of {len(tangent)} tangent joints opened: {names}{held}."
+    return f"All {len(tangent)} tangent joints stay tangent within {_TANGENT_DEG:g}°."
+
+
+def length(value: float) -> str:
+    """A small length: two digits, as a power of ten where it is short of 0.001."""
+    return f"{value:.1e}" if 0 < abs(value) < 1e-3 else f"{value:.4g}"

@@ -1,0 +1,272 @@
+"""The command line: exit codes, messages, and that nothing half-written is ever left."""
+
+import json
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import common
+from common import bladesmith, packed
+
+BASE = (packed("base.step"), packed("base.frd"))
+
+
+class InFolder(unittest.TestCase):
+    """A test with an empty folder, which it must leave with the expected files only."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="bladesmith-tests-")
+        self.addCleanup(holder.cleanup)
+        self.folder = Path(holder.name)
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_refused(self, done, *words):
+        """One line on standard error with these words, exit code 2, no file."""
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, "")
+        lines = done.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, lines[0])
+        self.assertEqual(self.files(), [])
+
+
+class Usage(InFolder):
+    def test_help_tells_options_and_exit_codes(self):
+        for arguments in (["--help"], ["morph", "--help"], ["info", "--help"]):
+            done = bladesmith(*arguments)
+            self.assertEqual(done.returncode, 0)
+        text = bladesmith("morph", "--help").stdout
+        for option in ("--factor", "--mesh", "--tolerance", "--extrapolate", "exit codes"):
+            self.assertIn(option, text)
+
+    def test_the_version_is_that_of_the_crate(self):
+        manifest = (common.ROOT / "Cargo.toml").read_text()
+        version = re.search(r'^version = "([^"]+)"', manifest, re.M).group(1)
+        self.assertEqual(bladesmith("--version").stdout, f"bladesmith {version}\n")
+        package = (common.ROOT / "package.xml").read_text()
+        self.assertIn(f"<version>{version}</version>", package)
+
+    def test_wrong_options_end_with_2_and_name_the_option(self):
+        cases = {
+            "--factor": "x",
+            "--tolerance": "0",
+            "--step": "0",
+            "--solid": "-1",
+            "--threads": "two",
+            "--field-unit": "yard",
+            "--displacement-scale": "nan",
+        }
+        for option, value in cases.items():
+            done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", f"{option}={value}")
+            self.assertEqual(done.returncode, 2, option)
+            self.assertIn(option, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_it_runs_as_a_module_and_through_links_from_any_folder(self):
+        link = self.folder / "bladesmith"
+        link.symlink_to(common.LAUNCHER)
+        (self.folder / "numpy.py").write_text("raise SystemExit('the wrong numpy')")
+        linked = [str(link), "--version"]
+        module = ["/usr/bin/python3", "-m", "freecad.bladesmith", "--version"]
+        environment = {**os.environ, "PYTHONPATH": str(common.WORKBENCH)}
+        for command in (linked, module):
+            done = subprocess.run(
+                command, cwd=self.folder, env=environment, capture_output=True, text=True
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(done.stdout.startswith("bladesmith "))
+
+
+class Refusals(InFolder):
+    def test_the_result_must_be_a_step_file(self):
+        done = bladesmith("morph", *BASE, "-o", self.folder / "cold.stl")
+        self.assert_refused(done, "cold.stl", ".step or .stp")
+
+    def test_missing_inputs_are_named(self):
+        cases = [
+            (("none.step", BASE[1]), "none.step"),
+            ((BASE[0], "none.frd"), "none.frd"),
+            ((*BASE, "--mesh", "none.inp"), "none.inp"),
+        ]
+        for arguments, name in cases:
+            done = bladesmith("morph", *arguments, "-o", self.folder / "c.step")
+            self.assert_refused(done, name, "No such file")
+
+    def test_a_folder_is_no_input(self):
+        done = bladesmith("morph", common.P5, BASE[1], "-o", self.folder / "c.step")
+        self.assert_refused(done, "p5")
+
+    def test_a_field_in_place_of_the_part_is_refused(self):
+        done = bladesmith("morph", BASE[1], BASE[0], "-o", self.folder / "c.step")
+        self.assert_refused(done, "base.frd", "no STEP file")
+
+    def test_inputs_are_never_overwritten(self):
+        part = self.folder / "hot.step"
+        part.write_bytes(b"ISO-10303-21;")
+        for option in ("-o", "--json"):
+            arguments = [part, BASE[1], option, part]
+            if option == "--json":
+                arguments += ["-o", self.folder / "c.step"]
+            done = bladesmith("morph", *arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("would overwrite", done.stderr)
+        self.assertEqual(part.read_bytes(), b"ISO-10303-21;")
+
+    def test_folders_that_do_not_exist_are_refused_before_any_work(self):
+        for option in ("-o", "--json", "--report"):
+            arguments = ["morph", *BASE, option, self.folder / "none" / "x.step"]
+            if option != "-o":
+                arguments += ["-o", self.folder / "c.step"]
+            done = bladesmith(*arguments)
+            self.assert_refused(done, "none", "does not exist; make it first")
+
+    def test_faces_and_solids_that_are_not_there_are_refused(self):
+        cases = {
+            ("--faces", "Face9"): "give Face1 to Face6",
+            ("--fixed", "tip"): "no face 'tip'",
+            ("--solid", "3"): "--solid takes 1 to 1",
+        }
+        for options, words in cases.items():
+            done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", *options)
+            self.assert_refused(done, words)
+
+    def test_tracebacks_are_for_those_who_ask(self):
+        arguments = ("morph", "none.step", BASE[1], "-o", self.folder / "c.step")
+        self.assertNotIn("Traceback", bladesmith(*arguments).stderr)
+        asked = subprocess.run(
+            [str(common.LAUNCHER), *map(str, arguments)],
+            env={**os.environ, "BLADESMITH_DEBUG": "1"},
+            capture_output=True,
+            text=True,
+        )
+        self.assertIn("Traceback", asked.stderr)
+
+    def test_without_freecad_the_remedy_is_told(self):
+        done = bladesmith("info", BASE[0], BLADESMITH_FREECAD_LIB="/nowhere")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("apt-get install freecad-python3", done.stderr)
+
+
+class Results(InFolder):
+    def test_a_morph_leaves_exactly_the_files_asked_for(self):
+        options = ["--json", self.folder / "r.json", "--report", self.folder / "pages"]
+        done = bladesmith(
+            "morph", *BASE, "--mesh", packed("base.inp"), "-o", self.folder / "c.step", *options
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.files(), ["c.step", "pages", "r.json"])
+        self.assertIn("report.html", os.listdir(self.folder / "pages"))
+        for word in ("6 faces, valid, closed", "deviation", "largest gap", "volume"):
+            self.assertIn(word, done.stdout)
+
+    def test_quiet_prints_nothing(self):
+        done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_a_missed_tolerance_ends_with_3_and_the_result_is_written(self):
+        output = self.folder / "c.step"
+        done = bladesmith("morph", *BASE, "-o", output, "--tolerance", "1e-9")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("beyond --tolerance 1e-09 mm", done.stderr)
+        self.assertTrue(common.Part.read(str(output)).isValid())
+
+    def test_the_report_has_the_names_that_users_rely_on(self):
+        report = common.morph(*BASE).report
+        names = "tool input faces edges deviation_mm holdout_mm unmatched_nodes solid warnings"
+        self.assertLessEqual({*names.split(), "seconds"}, set(report))
+        self.assertEqual(report["tool"]["name"], "bladesmith")
+        self.assertEqual(report["solid"]["faces"], 6)
+        self.assertIs(report["solid"]["valid"], True)
+        self.assertIs(report["solid"]["closed"], True)
+        stages = {"read", "associate", "fit", "rebuild", "write", "total"}
+        self.assertEqual(set(report["seconds"]), stages)
+        parts = sum(report["seconds"][stage] for stage in stages - {"total"})
+        self.assertLessEqual(parts, report["seconds"]["total"] * 1.05)
+
+    def test_fixed_faces_stay_and_only_moving_ones_move(self):
+        for options in (("--fixed", "Face1"), ("--faces", "2,3,4,5,6")):
+            done = common.morph(*BASE, *options)
+            self.assertIn(done.code, (0, 3), done.stderr)
+            hot = common.Part.read(str(common.morph(*BASE, "--factor", "0").output))
+            before, after = hot.Faces[0].Surface, done.solid.Faces[0].Surface
+            for u, v in ((0.2, 0.3), (0.5, 0.9), (0.7, 0.1)):
+                self.assertLess(before.value(u, v).distanceToPoint(after.value(u, v)), 1e-6)
+
+
+class Interruption(InFolder):
+    def start(self, *options):
+        return subprocess.Popen(
+            [str(common.LAUNCHER), "morph", *map(str, BASE), "-o", str(self.folder / "c.step")]
+            + list(options),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def test_stopping_at_any_moment_leaves_the_folder_as_it_was(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            for delay in (0.15, 0.3, 0.45, 0.6, 0.75):
+                process = self.start("--json", str(self.folder / "r.json"))
+                time.sleep(delay)
+                process.send_signal(number)
+                _out, error = process.communicate(timeout=60)
+                self.assertNotIn("Traceback", error)
+                if process.returncode == 0:
+                    self.assertEqual(self.files(), ["c.step", "r.json"])
+                    for path in self.folder.iterdir():
+                        path.unlink()
+                else:
+                    self.assertEqual(self.files(), [], f"{number.name} after {delay} s: {error}")
+
+    def test_a_terminal_sees_progress(self):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen(
+            [str(common.LAUNCHER), "morph", *map(str, BASE), "-o", str(self.folder / "c.step")],
+            stdout=subprocess.DEVNULL,
+            stderr=theirs,
+        )
+        os.close(theirs)
+        seen = b""
+        while process.poll() is None or select.select([ours], [], [], 0)[0]:
+            if select.select([ours], [], [], 0.2)[0]:
+                try:
+                    seen += os.read(ours, 4096)
+                except OSError:
+                    break
+        os.close(ours)
+        self.assertEqual(process.wait(), 0)
+        self.assertRegex(seen.decode(), r"\[#+ +\] +\d+%")
+
+
+class Info(InFolder):
+    def test_a_part_is_told_in_engineering_terms(self):
+        done = bladesmith("info", packed("two_solids.step"), "--json", self.folder / "i.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("2 solids", "solid 1: 6 faces", "valid, closed", "degree 3x3, 35x41 poles"):
+            self.assertIn(word, done.stdout)
+        document = json.loads((self.folder / "i.json").read_text())
+        self.assertEqual([len(solid["faces"]) for solid in document["solids"]], [6, 6])
+
+    def test_a_field_is_told_in_engineering_terms(self):
+        done = bladesmith("info", common.awkward("two_steps"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("nodes 2425", "1250 C3D10", "step 1", "step 2", "largest displacement 0.2"):
+            self.assertIn(word, done.stdout)
+
+    def test_other_files_are_refused(self):
+        self.assert_refused(bladesmith("info", common.awkward("not_frd")), "not_frd.frd")
+        self.assert_refused(bladesmith("info", "none.frd"), "none.frd")
+
+
+if __name__ == "__main__":
+    unittest.main()
