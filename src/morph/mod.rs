@@ -2,6 +2,8 @@
 
 pub mod options;
 pub mod report;
+pub mod space;
+pub mod system;
 
 pub use options::{Options, Progress};
 pub use report::Report;

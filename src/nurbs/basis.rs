@@ -142,31 +142,25 @@ impl KnotVector {
     /// Basis functions and derivatives up to `order` (A2.3): `out[d * (degree + 1) + j]` is the
     /// `d`-th derivative of the `j`-th function that does not vanish on `span`.
     pub fn basis_derivatives(&self, span: usize, u: f64, order: usize, out: &mut [f64]) {
+        // Small work arrays keep the usual degrees in a few cache lines.
+        if self.degree < 8 {
+            self.basis_derivatives_sized::<8>(span, u, order, out);
+        } else {
+            self.basis_derivatives_sized::<{ MAX_DEGREE + 1 }>(span, u, order, out);
+        }
+    }
+
+    fn basis_derivatives_sized<const W: usize>(&self, span: usize, u: f64, order: usize, out: &mut [f64]) {
         let p = self.degree;
         let w = p + 1;
-        let k = &self.flat;
-        let mut ndu = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
-        let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
-        ndu[0][0] = 1.0;
-        for j in 1..=p {
-            left[j] = u - k[span + 1 - j];
-            right[j] = k[span + j] - u;
-            let mut saved = 0.0;
-            for r in 0..j {
-                ndu[j][r] = right[r + 1] + left[j - r];
-                let t = ndu[r][j - 1] / ndu[j][r];
-                ndu[r][j] = saved + right[r + 1] * t;
-                saved = left[j - r] * t;
-            }
-            ndu[j][j] = saved;
-        }
+        let ndu = self.basis_triangle::<W>(span, u);
         out[..(order + 1) * w].fill(0.0);
         for j in 0..=p {
             out[j] = ndu[j][p];
         }
         let top = order.min(p);
         for r in 0..=p {
-            let mut a = [[0.0; MAX_DEGREE + 1]; 2];
+            let mut a = [[0.0; W]; 2];
             let (mut s1, mut s2) = (0, 1);
             a[0][0] = 1.0;
             for d in 1..=top {
@@ -199,9 +193,105 @@ impl KnotVector {
         }
     }
 
+    /// Basis functions of all degrees (upper triangle, by column) and knot differences (lower).
+    fn basis_triangle<const W: usize>(&self, span: usize, u: f64) -> [[f64; W]; W] {
+        let k = &self.flat;
+        let mut ndu = [[0.0; W]; W];
+        let (mut left, mut right) = ([0.0; W], [0.0; W]);
+        ndu[0][0] = 1.0;
+        for j in 1..=self.degree {
+            left[j] = u - k[span + 1 - j];
+            right[j] = k[span + j] - u;
+            let mut saved = 0.0;
+            for r in 0..j {
+                ndu[j][r] = right[r + 1] + left[j - r];
+                let t = ndu[r][j - 1] / ndu[j][r];
+                ndu[r][j] = saved + right[r + 1] * t;
+                saved = left[j - r] * t;
+            }
+            ndu[j][j] = saved;
+        }
+        ndu
+    }
+
     /// Greville abscissae: the mean of `degree` consecutive knots for each pole.
     pub fn greville(&self) -> Vec<f64> {
         let p = self.degree;
         (0..self.len()).map(|i| self.flat[i + 1..=i + p].iter().sum::<f64>() / p as f64).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cox-de Boor, literally, as an oracle.
+    fn naive(k: &[f64], i: usize, p: usize, u: f64) -> f64 {
+        if p == 0 {
+            return if k[i] <= u && u < k[i + 1] { 1.0 } else { 0.0 };
+        }
+        let part = |a: f64, b: f64| if b == 0.0 { 0.0 } else { a / b };
+        part(u - k[i], k[i + p] - k[i]) * naive(k, i, p - 1, u)
+            + part(k[i + p + 1] - u, k[i + p + 1] - k[i + 1]) * naive(k, i + 1, p - 1, u)
+    }
+
+    #[test]
+    fn basis_equals_cox_de_boor() {
+        for degree in 1..=9 {
+            let knots = KnotVector::clamped(degree, &[0.0, 0.3, 0.35, 1.0, 2.5]).unwrap();
+            for step in 0..50 {
+                let u = 2.4999 * step as f64 / 49.0;
+                let span = knots.span(u);
+                let mut n = [0.0; MAX_DEGREE + 1];
+                knots.basis(span, u, &mut n);
+                for j in 0..=degree {
+                    let expected = naive(knots.flat(), span - degree + j, degree, u);
+                    assert!((n[j] - expected).abs() < 1e-13, "degree {degree}, u {u}: {} {expected}", n[j]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_follow_the_degree_below() {
+        for degree in [2, 3, 5, 11] {
+            let knots = KnotVector::clamped(degree, &[0.0, 0.3, 0.3, 0.7, 1.0]).unwrap();
+            for u in [0.0, 0.1, 0.3, 0.55, 0.9, 1.0] {
+                let span = knots.span(u);
+                let mut n = [0.0; 3 * (MAX_DEGREE + 1)];
+                knots.basis_derivatives(span, u, 2, &mut n);
+                let w = degree + 1;
+                for d in 1..3 {
+                    let sum: f64 = n[d * w..(d + 1) * w].iter().sum();
+                    let size: f64 = n[d * w..(d + 1) * w].iter().map(|x| x.abs()).sum();
+                    assert!(
+                        sum.abs() < 1e-12 * size,
+                        "derivative {d} of one is {sum} (degree {degree}, u {u})"
+                    );
+                }
+                // The identity is a spline with Greville poles: its derivative is one.
+                let g = knots.greville();
+                let slope: f64 = (0..w).map(|j| n[w + j] * g[span - degree + j]).sum();
+                assert!((slope - 1.0).abs() < 1e-12, "slope {slope} (degree {degree}, u {u})");
+            }
+        }
+    }
+
+    #[test]
+    fn ends_belong_to_the_nearest_span() {
+        let knots = KnotVector::clamped(3, &[0.0, 1.0, 2.0]).unwrap();
+        assert_eq!(knots.span(2.0), 4);
+        assert_eq!(knots.span(3.0), 4);
+        assert_eq!(knots.span(-1.0), 3);
+        assert_eq!(knots.span(1.0), 4);
+    }
+
+    #[test]
+    fn unusable_knots_are_refused_with_figures() {
+        let message = |r: Result<KnotVector>| r.unwrap_err().to_string();
+        assert!(message(KnotVector::new(3, vec![0.0; 4])).contains("too few"));
+        assert!(message(KnotVector::new(1, vec![0.0, 0.0, f64::NAN, 1.0])).contains("NaN"));
+        assert!(message(KnotVector::new(1, vec![0.0, 0.5, 0.4, 1.0])).contains("0.5"));
+        assert!(message(KnotVector::new(1, vec![0.0; 4])).contains("empty"));
     }
 }

@@ -1,0 +1,171 @@
+//! Curves and surfaces approximated by splines to a tolerance, in their own parameters.
+//!
+//! Interpolation at the Greville abscissae; spans whose midpoints miss the tolerance are halved.
+//! The tolerance holds at the sampled points, three in each span; nothing is guaranteed between.
+
+use super::interpolate::Collocation;
+use crate::error::Result;
+use crate::nurbs::{KnotVector, NurbsCurve, NurbsSurface, Point};
+use glam::DVec3;
+
+/// Inner samples of a span at which the error is looked at.
+const SAMPLES: [f64; 3] = [0.2, 0.5, 0.8];
+
+/// Knots in the making: ascending breaks with the multiplicity of each inner one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Breaks {
+    /// Degree of the spline.
+    pub degree: usize,
+    /// Break parameters with multiplicities (those of the ends are ignored).
+    pub at: Vec<(f64, usize)>,
+}
+
+impl Breaks {
+    /// Breaks with simple inner knots.
+    pub fn simple(degree: usize, at: &[f64]) -> Self {
+        Self { degree, at: at.iter().map(|&t| (t, 1)).collect() }
+    }
+
+    /// The clamped knot vector.
+    ///
+    /// # Errors
+    /// As [`KnotVector::new`].
+    pub fn knots(&self) -> Result<KnotVector> {
+        let last = self.at.len() - 1;
+        let mut flat = Vec::new();
+        for (i, &(t, m)) in self.at.iter().enumerate() {
+            let m = if i == 0 || i == last { self.degree + 1 } else { m };
+            flat.extend(std::iter::repeat_n(t, m));
+        }
+        KnotVector::new(self.degree, flat)
+    }
+
+    /// Halves the marked spans (simple new knots).
+    pub fn split(&mut self, marked: &[bool]) {
+        let mut out = Vec::with_capacity(2 * self.at.len());
+        for (i, w) in self.at.windows(2).enumerate() {
+            out.push(w[0]);
+            if marked[i] {
+                out.push((0.5 * (w[0].0 + w[1].0), 1));
+            }
+        }
+        out.extend(self.at.last());
+        self.at = out;
+    }
+
+    fn spans(&self) -> usize {
+        self.at.len() - 1
+    }
+
+    fn samples(&self) -> Vec<f64> {
+        self.at.windows(2).flat_map(|w| SAMPLES.map(|s| w[0].0 + s * (w[1].0 - w[0].0))).collect()
+    }
+}
+
+/// Approximates `f` on the given breaks to `tolerance`, with at most `limit` spans; returns the
+/// curve and the largest error seen.
+///
+/// # Errors
+/// As [`Collocation::new`].
+pub fn curve<P: Point + crate::linalg::banded::Rhs>(
+    f: impl Fn(f64) -> P,
+    mut breaks: Breaks,
+    tolerance: f64,
+    limit: usize,
+) -> Result<(NurbsCurve<P>, f64)> {
+    loop {
+        let knots = breaks.knots()?;
+        let collocation = Collocation::new(&knots)?;
+        let mut poles: Vec<P> = collocation.points().iter().map(|&t| f(t)).collect();
+        collocation.poles(&mut poles);
+        let fitted = NurbsCurve::new(knots, poles, None)?;
+        let errors: Vec<f64> = breaks.samples().iter().map(|&t| (fitted.point(t) - f(t)).length()).collect();
+        let marked: Vec<bool> =
+            errors.chunks(SAMPLES.len()).map(|e| e.iter().any(|&e| e > tolerance)).collect();
+        let bad = marked.iter().filter(|&&m| m).count();
+        if bad == 0 || breaks.spans() + bad > limit {
+            return Ok((fitted, errors.into_iter().fold(0.0, f64::max)));
+        }
+        breaks.split(&marked);
+    }
+}
+
+/// Approximates `f` on the given breaks to `tolerance`, with at most `limit` spans a direction;
+/// returns the surface and the largest error seen.
+///
+/// # Errors
+/// As [`Collocation::new`].
+pub fn surface(
+    f: impl Fn(f64, f64) -> DVec3 + Sync,
+    mut u: Breaks,
+    mut v: Breaks,
+    tolerance: f64,
+    limit: usize,
+) -> Result<(NurbsSurface, f64)> {
+    loop {
+        let (ku, kv) = (u.knots()?, v.knots()?);
+        let (cu, cv) = (Collocation::new(&ku)?, Collocation::new(&kv)?);
+        let grid = |us: &[f64], vs: &[f64]| -> Vec<DVec3> {
+            us.iter().flat_map(|&a| vs.iter().map(move |&b| (a, b))).map(|(a, b)| f(a, b)).collect()
+        };
+        let mut poles = grid(cu.points(), cv.points());
+        Collocation::poles_tensor(&cu, &cv, &mut poles);
+        let fitted = NurbsSurface::new(ku, kv, poles, None)?;
+        // On a Greville line of one direction the error is that of the other direction alone.
+        let error = |a: f64, b: f64| (fitted.point(a, b) - f(a, b)).length();
+        let worst = |ts: &[f64], at: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            ts.chunks(SAMPLES.len()).map(|c| c.iter().map(|&t| at(t)).fold(0.0, f64::max)).collect()
+        };
+        let error_u = worst(&u.samples(), &|a| cv.points().iter().map(|&b| error(a, b)).fold(0.0, f64::max));
+        let error_v = worst(&v.samples(), &|b| cu.points().iter().map(|&a| error(a, b)).fold(0.0, f64::max));
+        let largest = error_u.iter().chain(&error_v).copied().fold(0.0, f64::max);
+        let mark = |errors: &[f64], breaks: &Breaks| -> Vec<bool> {
+            let marked: Vec<bool> = errors.iter().map(|&e| e > 0.5 * tolerance).collect();
+            let bad = marked.iter().filter(|&&m| m).count();
+            if breaks.spans() + bad > limit { vec![false; marked.len()] } else { marked }
+        };
+        let (mu, mv) = (mark(&error_u, &u), mark(&error_v, &v));
+        if !mu.iter().chain(&mv).any(|&m| m) {
+            return Ok((fitted, largest));
+        }
+        u.split(&mu);
+        v.split(&mv);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cylinder_keeps_its_angle_parameter() {
+        let f = |a: f64, z: f64| DVec3::new(50.0 * a.cos(), 50.0 * a.sin(), z);
+        for tolerance in [1e-3, 1e-5, 1e-7] {
+            let full = std::f64::consts::TAU;
+            let (s, _) =
+                surface(f, Breaks::simple(5, &[0.0, full]), Breaks::simple(3, &[0.0, 30.0]), tolerance, 500)
+                    .unwrap();
+            let mut worst = 0.0f64;
+            for i in 0..=1000 {
+                let a = full * i as f64 / 1000.0;
+                worst = worst.max((s.point(a, 7.3) - f(a, 7.3)).length());
+            }
+            assert!(worst < 1.5 * tolerance, "asked {tolerance}, got {worst}");
+            assert_eq!(s.knots_v().len(), 4, "a straight direction needs one span");
+        }
+    }
+
+    #[test]
+    fn curve_error_follows_the_tolerance() {
+        for tolerance in [1e-2, 1e-5, 1e-9] {
+            let f = |t: f64| DVec3::new(t.cos(), t.sin(), (3.0 * t).exp().ln_1p());
+            let (c, e) = curve(f, Breaks::simple(5, &[0.0, 3.0]), tolerance, 400).unwrap();
+            assert!(e <= tolerance);
+            let worst = (0..=500)
+                .map(|i| 3.0 * i as f64 / 500.0)
+                .map(|t| (c.point(t) - f(t)).length())
+                .fold(0.0, f64::max);
+            assert!(worst < 2.0 * tolerance, "asked {tolerance}, got {worst}");
+        }
+    }
+}
