@@ -238,7 +238,8 @@ mod tests {
     #[test]
     fn a_location_undone_is_the_identity() {
         let there_and_back = Location::Composite(vec![(1, 2), (2, -1), (2, 1), (1, -2)]);
-        let mut placements = Placements::new(&[TURN, STEP, there_and_back]).unwrap();
+        let table = [TURN, STEP, there_and_back];
+        let mut placements = Placements::new(&table).unwrap();
         assert_eq!(placements.compose(0, 3), Ok(0));
         let turned = placements.compose(0, 1).unwrap();
         assert_ne!(placements.compose(turned, 2), placements.compose(0, 2));

@@ -26,7 +26,8 @@ PASSES = {
 }
 # Coordinates in the text carry 15 digits at least.
 RELATIVE = 1e-12
-# Unbounded surfaces are sampled up to here.
+# Parameters beyond this stand for infinity; sampling then goes up to FAR.
+ENDLESS = 1e50
 FAR = 5.0
 
 
@@ -49,7 +50,10 @@ def read_step(path):
 
 def spread(first, last, n):
     """n parameters from first to last, infinite ends replaced."""
-    first, last = max(first, -FAR), min(last, FAR) if last > FAR * 1e3 else last
+    if first < -ENDLESS:
+        first = -FAR
+    if last > ENDLESS:
+        last = FAR
     return [first + (last - first) * i / (n - 1) for i in range(n)]
 
 
