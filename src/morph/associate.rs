@@ -46,7 +46,13 @@ struct Candidate {
 /// Finds the faces of `nodes` (indices into `points`, mm) within `tolerance_mm`. Of `mid_sides`
 /// (mid-side node and its two corners) those off the faces are taken to the faces of their
 /// corners.
-pub fn associate(hot: &Hot, points: &[DVec3], nodes: &[u32], mid_sides: &[[u32; 3]], tolerance_mm: f64) -> Association {
+pub fn associate(
+    hot: &Hot,
+    points: &[DVec3],
+    nodes: &[u32],
+    mid_sides: &[[u32; 3]],
+    tolerance_mm: f64,
+) -> Association {
     let cells = cells(hot);
     let candidates: Vec<Vec<Candidate>> =
         nodes.par_iter().map(|&n| candidates(hot, &cells, n, points[n as usize], tolerance_mm)).collect();

@@ -37,7 +37,8 @@ pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
     let per_face: Vec<Vec<f64>> = (0..hot.faces.len() as u32)
         .into_par_iter()
         .map(|face| {
-            let range = matches.partition_point(|m| m.face < face)..matches.partition_point(|m| m.face <= face);
+            let range =
+                matches.partition_point(|m| m.face < face)..matches.partition_point(|m| m.face <= face);
             let own = &matches[range];
             let points: Vec<_> = own.iter().map(|m| GeomWithData::new(m.foot.point.to_array(), ())).collect();
             let tree = RTree::bulk_load(points);
@@ -67,7 +68,12 @@ pub fn collect(
     let mut out = vec![PatchData::default(); hot.patches.len()];
     for (m, &spacing) in matches.iter().zip(spacings) {
         if let Some(target) = target(m) {
-            out[hot.faces[m.face as usize].patch].data.push(Datum { uv: m.foot.uv, target, spacing, weight: 1.0 });
+            out[hot.faces[m.face as usize].patch].data.push(Datum {
+                uv: m.foot.uv,
+                target,
+                spacing,
+                weight: 1.0,
+            });
         }
     }
     for patch in &mut out {

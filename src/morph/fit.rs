@@ -12,10 +12,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Rounds of the coupled solve.
-fn rounds() -> usize { std::env::var("RO").map_or(4, |w| w.parse().unwrap()) }
-/// Augmented-Lagrangian steps of each.
-const SHARPEN: usize = 2;
-fn sharpen() -> usize { std::env::var("AL").map_or(SHARPEN, |w| w.parse().unwrap()) }
+const ROUNDS: usize = 4;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
 /// Nodes for each pole at least.
@@ -75,25 +72,13 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
         })
         .collect::<Result<_>>()?;
     let mut coefficients = Vec::new();
-    let mut owned: Vec<PatchData> = problem.data.to_vec();
-    for round in 0..rounds() {
-        let clock = std::time::Instant::now();
-        if !progress("fitting all faces together", round as f64 / rounds() as f64) {
+    for round in 0..ROUNDS {
+        if !progress("fitting all faces together", round as f64 / ROUNDS as f64) {
             return Err(Error::Cancelled);
         }
-        let problem = &Problem { hot: problem.hot, data: &owned, ties: problem.ties, prescribed: problem.prescribed, kinks: problem.kinks };
         let coupled = Coupled::solve(problem, &spaces)?;
-        if std::env::var("DBG").is_ok() {
-            let n: usize = spaces.iter().map(|s| s.len()).sum();
-            eprintln!("round {round} unknowns {n} t {:.3}", clock.elapsed().as_secs_f64());
-            for (j, l) in coupled.links.iter().enumerate() {
-                let w = l.position.iter().zip(&l.parameters).map(|(k, t)| (system::jump(&coupled.blocks, k, &coupled.coefficients).length(), *t)).fold((0.0, 0.0), |a: (f64, f64), b| if b.0 > a.0 { b } else { a });
-                if w.0 > 1e-5 { eprintln!("  joint {} faces {:?} jump {:.1e} at {:.4} of {:?} n {} sp {:.3}", j + 1, hot.joints[j].sides.iter().map(|s| s.face + 1).collect::<Vec<_>>(), w.0, w.1, hot.joints[j].range, l.parameters.len(), joint_spacing(problem, &hot.joints[j])); }
-            }
-        }
-        let finer = if round + 1 < rounds() { coupled.refine(problem, &spaces)? } else { None };
+        let finer = if round + 1 < ROUNDS { coupled.refine(problem, &spaces)? } else { None };
         coefficients = coupled.coefficients;
-        if let Ok(w) = std::env::var("IW") { let w: f64 = w.parse().unwrap(); for p in 0..owned.len() { let r = surface_fit::residuals(&spaces[p], &owned[p], &coupled.cells[p], &coefficients[p]); for (d, r) in owned[p].data.iter_mut().zip(r) { if r.1 > 1e-4 { d.weight *= w; } } } }
         match finer {
             Some(finer) => spaces = finer,
             None => break,
@@ -127,7 +112,8 @@ impl Coupled {
             .map(|(p, (space, unknowns))| {
                 let cells = Cells::new(space, &problem.data[p]);
                 let equations = surface_fit::equations(space, &hot.patches[p].hot, &problem.data[p], &cells);
-                let prescribed = problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.len()]);
+                let prescribed =
+                    problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.len()]);
                 (Block { space: space.clone(), equations, unknowns, prescribed }, cells)
             })
             .unzip();
@@ -138,7 +124,7 @@ impl Coupled {
             .map(|(joint, &tie)| links::links(hot, joint, spaces, tie, joint_spacing(problem, joint)))
             .collect();
         let all: Vec<_> = links.iter().flat_map(|l| l.position.iter().chain(&l.tangent)).cloned().collect();
-        let coefficients = system::solve(&blocks, &all, count, sharpen())?;
+        let coefficients = system::solve(&blocks, &all, count)?;
         Ok(Self { coefficients, blocks, cells, links })
     }
 
@@ -158,10 +144,14 @@ impl Coupled {
                 let mut at_edge = vec![false; cells.count.len()];
                 for (joint, links) in hot.joints.iter().zip(&self.links) {
                     for side in joint.sides.iter().filter(|s| s.patch == p) {
-                        for &t in &links.parameters { at_edge[cells.index(side.pcurve.point(t))] = true; }
+                        for &t in &links.parameters {
+                            at_edge[cells.index(side.pcurve.point(t))] = true;
+                        }
                     }
                 }
-                surface_fit::mark(cells, &hot.patches[p].hot, &residuals, |k| if at_edge[k] { SHORTEST_AT_EDGE } else { 2.0 })
+                surface_fit::mark(cells, &hot.patches[p].hot, &residuals, |k| {
+                    if at_edge[k] { SHORTEST_AT_EDGE } else { 2.0 }
+                })
             })
             .collect();
         for (joint, links) in hot.joints.iter().zip(&self.links) {
@@ -172,13 +162,23 @@ impl Coupled {
         for (p, (space, marks)) in spaces.iter().zip(&marks).enumerate() {
             let wanted = marks.count() > 0 && problem.prescribed[p].is_none();
             asked |= wanted;
-            finer.push(if wanted { marks.refine(space, &problem.hot.patches[p].hot)? } else { space.clone() });
+            finer.push(if wanted {
+                marks.refine(space, &problem.hot.patches[p].hot)?
+            } else {
+                space.clone()
+            });
         }
         Ok(asked.then_some(finer))
     }
 
     /// Asks for finer knots on the coarser side of every sample at which a joint gapes.
-    fn mark_gaping(&self, problem: &Problem<'_>, joint: &super::hot::Joint, links: &JointLinks, marks: &mut [Marks]) {
+    fn mark_gaping(
+        &self,
+        problem: &Problem<'_>,
+        joint: &super::hot::Joint,
+        links: &JointLinks,
+        marks: &mut [Marks],
+    ) {
         for (link, &t) in links.position.iter().zip(&links.parameters) {
             if system::jump(&self.blocks, link, &self.coefficients).length() < JUMP_MM {
                 continue;
@@ -244,10 +244,12 @@ impl PatchTies {
         let fractions = (0..=8).map(|k| k as f64 / 8.0);
         let us: Vec<f64> = fractions.clone().map(|s| u0 + s * (u1 - u0)).collect();
         let vs: Vec<f64> = fractions.map(|s| v0 + s * (v1 - v0)).collect();
-        let same = |a: DVec2, b: DVec2| {
-            (surface.point(a.x, a.y) - surface.point(b.x, b.y)).length() < 1e-5
-        };
-        let seams: Vec<_> = hot.joints.iter().filter(|j| j.sides.len() == 2 && j.sides.iter().all(|s| s.patch == patch)).collect();
+        let same = |a: DVec2, b: DVec2| (surface.point(a.x, a.y) - surface.point(b.x, b.y)).length() < 1e-5;
+        let seams: Vec<_> = hot
+            .joints
+            .iter()
+            .filter(|j| j.sides.len() == 2 && j.sides.iter().all(|s| s.patch == patch))
+            .collect();
         let closed_u = !seams.is_empty() && vs.iter().all(|&v| same(DVec2::new(u0, v), DVec2::new(u1, v)));
         let closed_v = !seams.is_empty() && us.iter().all(|&u| same(DVec2::new(u, v0), DVec2::new(u, v1)));
         let point_u = |u: f64| vs.iter().all(|&v| same(DVec2::new(u, v), DVec2::new(u, v0)));

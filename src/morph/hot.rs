@@ -163,7 +163,13 @@ fn joints(brep: &Brep, topology: &Topology, uses: &[Vec<(usize, Coedge)>]) -> Re
                 .iter()
                 .map(|(f, coedge)| side(brep, topology, *f, coedge, curve.as_ref(), edge.range))
                 .collect::<Result<_>>()?;
-            Ok(Joint { curve, range: edge.range, sides, vertices: edge.vertices, degenerated: edge.degenerated })
+            Ok(Joint {
+                curve,
+                range: edge.range,
+                sides,
+                vertices: edge.vertices,
+                degenerated: edge.degenerated,
+            })
         })
         .collect()
 }
@@ -177,11 +183,16 @@ fn side(
     range: [f64; 2],
 ) -> Result<Side> {
     let fail = |why: &str| Error::Face { face: face + 1, why: format!("edge {}: {why}", coedge.edge + 1) };
-    let (pcurve, unstored) = match (coedge.pcurve, curve, plane_of(&brep.surfaces[topology.faces[face].surface])) {
-        (Some(p), ..) => (brep.curves2d[p].clone(), false),
-        (None, Some(curve), Some(plane)) => (planar::pcurve(plane, curve, range)?, true),
-        _ => return Err(fail("has no pcurve; repair the solid (for example by exporting it again) and retry")),
-    };
+    let (pcurve, unstored) =
+        match (coedge.pcurve, curve, plane_of(&brep.surfaces[topology.faces[face].surface])) {
+            (Some(p), ..) => (brep.curves2d[p].clone(), false),
+            (None, Some(curve), Some(plane)) => (planar::pcurve(plane, curve, range)?, true),
+            _ => {
+                return Err(fail(
+                    "has no pcurve; repair the solid (for example by exporting it again) and retry",
+                ));
+            }
+        };
     let close = |a: f64, b: f64| (a - b).abs() <= 1e-6 * (range[1] - range[0]).abs();
     if coedge.pcurve.is_some() && !(close(coedge.range[0], range[0]) && close(coedge.range[1], range[1])) {
         return Err(fail("curve and pcurve have different parameter ranges; repair the solid and retry"));
@@ -234,7 +245,10 @@ fn windows(brep: &Brep, topology: &Topology, joints: &[Joint]) -> Result<(Vec<Wi
         let [low, high] = if face.wires.is_empty() { whole(&brep.surfaces[face.surface]) } else { boxes[f] };
         let usable = low.is_finite() && high.is_finite() && low.cmplt(high).all();
         if !usable {
-            return Err(Error::Face { face: f + 1, why: format!("its outline spans no area ({low} to {high})") });
+            return Err(Error::Face {
+                face: f + 1,
+                why: format!("its outline spans no area ({low} to {high})"),
+            });
         }
         let at = windows.iter().position(|w| w.surface == face.surface).unwrap_or_else(|| {
             windows.push(Window { surface: face.surface, faces: Vec::new(), corners: [low, high] });
@@ -295,8 +309,10 @@ fn polyline(hot: &NurbsSurface, joint: &Joint, side: &Side) -> Vec<DVec2> {
     let mut out = vec![at(0.0)];
     let first = 1 << PIECES[0];
     // Depth first: (start, end, depth), the earliest piece on top.
-    let mut stack: Vec<(f64, f64, u32)> =
-        (0..first).rev().map(|k| (k as f64 / first as f64, (k + 1) as f64 / first as f64, PIECES[0])).collect();
+    let mut stack: Vec<(f64, f64, u32)> = (0..first)
+        .rev()
+        .map(|k| (k as f64 / first as f64, (k + 1) as f64 / first as f64, PIECES[0]))
+        .collect();
     while let Some((a, b, depth)) = stack.pop() {
         let middle = 0.5 * (a + b);
         let (pa, pb, pm) = (at(a), at(b), at(middle));
@@ -327,7 +343,13 @@ pub fn store_planar_pcurves(brep: &mut Brep, hot: &Hot) {
             let ends = (brep.version == 2).then(|| joint.range.map(|t| side.pcurve.point(t)));
             if let ShapeKind::Edge(e) = &mut brep.shapes[shape].kind {
                 let range = joint.range;
-                e.representations.push(EdgeRepresentation::Pcurve { pcurve, surface, location: 0, range, ends });
+                e.representations.push(EdgeRepresentation::Pcurve {
+                    pcurve,
+                    surface,
+                    location: 0,
+                    range,
+                    ends,
+                });
             }
         }
     }

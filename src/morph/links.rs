@@ -9,8 +9,9 @@ use crate::nurbs::SurfaceDerivatives;
 use crate::tolerance::TANGENT_DEG;
 use glam::{DVec2, DVec3};
 
-/// Weight of a link of position against the nodes along the same length of edge.
-const WEIGHT: f64 = 100.0;
+/// Weight of a link of position against the nodes along the same length of edge. What is gained
+/// in gap by more is lost many times over at the nodes.
+const WEIGHT: f64 = 20.0;
 /// Weight of a link of derivatives, whose jump counts over one node spacing.
 const TANGENT_WEIGHT: f64 = 10.0;
 /// Samples in each piece of edge that both patches see as one polynomial.
@@ -88,17 +89,17 @@ pub fn links(hot: &Hot, joint: &Joint, spaces: &[Space], tie: Tie, spacing: f64)
     let length: f64 = traces.windows(2).map(|w| (w[1][0].d.s - w[0][0].d.s).length()).sum();
     let nodes = (length / spacing.max(1e-9)).max(1.0);
     let share = nodes / parameters.len() as f64;
-    let weight = std::env::var("PW").map_or(WEIGHT, |w| w.parse().unwrap()).powi(2) * share;
-    let tangent_weight = (std::env::var("TW").map_or(TANGENT_WEIGHT, |w| w.parse().unwrap()) * spacing).powi(2) * share;
+    let weight = WEIGHT * WEIGHT * share;
+    let tangent_weight = (TANGENT_WEIGHT * spacing).powi(2) * share;
     for [ta, tb] in &traces {
         let (ra, rb) = (spaces[a].value(ta.uv), spaces[b].value(tb.uv));
-        out.position.push(Link { a: (a, ra), b: (b, rb), weight, sharp: true });
+        out.position.push(Link { a: (a, ra), b: (b, rb), weight });
         if tie == Tie::Tangent {
             let across = ta.d.normal().cross(ta.tangent()).normalize_or_zero();
             let (Some(wa), Some(wb)) = (ta.resolve(across), tb.resolve(across)) else { continue };
             let row = |s: &Space, uv: DVec2, w: DVec2| s.combine(uv, [0.0, w.x, w.y, 0.0, 0.0, 0.0]);
             let (ra, rb) = (row(&spaces[a], ta.uv, wa), row(&spaces[b], tb.uv, wb));
-            out.tangent.push(Link { a: (a, ra), b: (b, rb), weight: tangent_weight, sharp: false });
+            out.tangent.push(Link { a: (a, ra), b: (b, rb), weight: tangent_weight });
         }
     }
     out.parameters = parameters;

@@ -35,13 +35,16 @@ type Integrals = [f64; 6];
 
 /// The properties of the solid with these surfaces (by patch).
 pub fn mass(hot: &Hot, surfaces: &[NurbsSurface]) -> Mass {
-    let mut sides: Vec<(&Joint, &Side)> = hot.joints.iter().flat_map(|j| j.sides.iter().map(move |s| (j, s))).collect();
+    let mut sides: Vec<(&Joint, &Side)> =
+        hot.joints.iter().flat_map(|j| j.sides.iter().map(move |s| (j, s))).collect();
     sides.sort_by_key(|(_, s)| s.face);
     // Moments about a point of the part lose less to cancellation than about the origin.
     let origin = surfaces.first().map_or(DVec3::ZERO, |s| s.poles()[0]);
     let parts: Vec<Integrals> = sides
         .par_iter()
-        .map(|(joint, side)| along_side(joint, side, &surfaces[side.patch], hot.patches[side.patch].window[0].x, origin))
+        .map(|(joint, side)| {
+            along_side(joint, side, &surfaces[side.patch], hot.patches[side.patch].window[0].x, origin)
+        })
         .collect();
     let mut faces = vec![[0.0; 6]; hot.faces.len()];
     for ((_, side), part) in sides.iter().zip(parts) {
@@ -75,7 +78,15 @@ fn along_side(joint: &Joint, side: &Side, surface: &NurbsSurface, u_first: f64, 
             let [uv, along, _] = side.pcurve.derivatives(t);
             let dv = along.y * weight * (w[1] - w[0]) * (joint.range[1] - joint.range[0]);
             if dv != 0.0 {
-                add_line(surface, &breaks, u_first, uv, if side.reversed { -dv } else { dv }, origin, &mut sum);
+                add_line(
+                    surface,
+                    &breaks,
+                    u_first,
+                    uv,
+                    if side.reversed { -dv } else { dv },
+                    origin,
+                    &mut sum,
+                );
             }
         }
     }

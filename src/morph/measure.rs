@@ -25,7 +25,12 @@ pub struct NodeFigures {
 }
 
 /// Measures the result at every match.
-pub fn at_nodes(hot: &Hot, cold: &[NurbsSurface], matches: &[Match], displacements: &[DVec3]) -> Vec<NodeFigures> {
+pub fn at_nodes(
+    hot: &Hot,
+    cold: &[NurbsSurface],
+    matches: &[Match],
+    displacements: &[DVec3],
+) -> Vec<NodeFigures> {
     let one = |m: &Match| {
         let patch = hot.faces[m.face as usize].patch;
         let (uv, u) = (m.foot.uv, displacements[m.node as usize]);
@@ -83,7 +88,11 @@ fn angle_deg(hot: &Hot, joint: &Joint, normal: impl Fn(usize, f64, f64) -> DVec3
         let t = joint.parameter(k as f64 / (EDGE_SAMPLES - 1) as f64);
         let (x, y) = (outward(a, t), outward(b, t));
         // A vanishing normal (the tip of a cone) has no angle.
-        if x == DVec3::ZERO || y == DVec3::ZERO { 0.0 } else { x.cross(y).length().atan2(x.dot(y)).to_degrees() }
+        if x == DVec3::ZERO || y == DVec3::ZERO {
+            0.0
+        } else {
+            x.cross(y).length().atan2(x.dot(y)).to_degrees()
+        }
     };
     (0..EDGE_SAMPLES).map(at).fold(0.0, f64::max)
 }

@@ -61,7 +61,11 @@ impl Nodes {
             None => all.filter(|&n| has_result(n)).collect(),
         };
         if usable.is_empty() {
-            return Err(Error::Field { path: field.name.clone(), line: 0, why: "no node has a displacement".into() });
+            return Err(Error::Field {
+                path: field.name.clone(),
+                line: 0,
+                why: "no node has a displacement".into(),
+            });
         }
         let largest_mm = usable.iter().map(|&n| displacements[n as usize].length()).fold(0.0, f64::max);
         check_size(largest_mm, size_mm, options, warnings)?;

@@ -34,7 +34,12 @@ pub fn between_knots(joint: &Joint, sides: &[(&Side, &KnotVector, &KnotVector)])
 }
 
 /// Adds the places between `a` and `b` where the spans change, in order.
-fn crossings(spans: &dyn Fn(f64) -> [usize; 4], a: (f64, [usize; 4]), b: (f64, [usize; 4]), out: &mut Vec<f64>) {
+fn crossings(
+    spans: &dyn Fn(f64) -> [usize; 4],
+    a: (f64, [usize; 4]),
+    b: (f64, [usize; 4]),
+    out: &mut Vec<f64>,
+) {
     if a.1 == b.1 {
         return;
     }

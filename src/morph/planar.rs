@@ -49,7 +49,8 @@ pub fn pcurve(plane: &Frame<DVec3>, curve: &Curve3d, range: [f64; 2]) -> Result<
         _ => {}
     }
     let spans = 8;
-    let at: Vec<f64> = (0..=spans).map(|i| range[0] + (range[1] - range[0]) * i as f64 / spans as f64).collect();
+    let at: Vec<f64> =
+        (0..=spans).map(|i| range[0] + (range[1] - range[0]) * i as f64 / spans as f64).collect();
     let f = |t: f64| map(curve.point(t));
     let (fitted, _) = approximate::curve(f, Breaks::simple(5, &at), TOLERANCE_MM, 400)?;
     Ok(Curve2d::BSpline((&fitted).into()))

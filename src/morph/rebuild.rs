@@ -52,7 +52,8 @@ fn moved(joint: &Joint, curve: &Curve3d, hot: &Hot, surfaces: &[NurbsSurface], t
 
 /// Largest distance between any two of `points`.
 fn spread(points: &[DVec3]) -> f64 {
-    let pairs = points.iter().enumerate().flat_map(|(i, a)| points[..i].iter().map(move |b| (*a - *b).length()));
+    let pairs =
+        points.iter().enumerate().flat_map(|(i, a)| points[..i].iter().map(move |b| (*a - *b).length()));
     pairs.fold(0.0, f64::max)
 }
 
@@ -91,7 +92,9 @@ pub fn new_edges(hot: &Hot, surfaces: &[NurbsSurface]) -> Result<Vec<NewEdge>> {
             _ => None,
         };
         let point = curve.as_ref().map(|c| move |t: f64| c.point(t));
-        let gap_mm = gap_mm(joint, point.as_ref().map(|f| f as &dyn Fn(f64) -> DVec3), |p, u, v| surfaces[p].point(u, v));
+        let gap_mm = gap_mm(joint, point.as_ref().map(|f| f as &dyn Fn(f64) -> DVec3), |p, u, v| {
+            surfaces[p].point(u, v)
+        });
         let ends = joint.range.map(|t| {
             let mut points: Vec<DVec3> = on_sides(joint, surfaces, t).collect();
             points.extend(curve.as_ref().map(|c| c.point(t)));

@@ -65,7 +65,9 @@ fn smooth_polynomial(surface: &Surface, low: DVec2, high: DVec2) -> Result<Optio
         let slack = 1e-6 * (end - start);
         is_smooth(k) && a >= start - slack && b <= end + slack
     };
-    let fits = nurbs.weights().is_none() && fits(nurbs.knots_u(), low.x, high.x) && fits(nurbs.knots_v(), low.y, high.y);
+    let fits = nurbs.weights().is_none()
+        && fits(nurbs.knots_u(), low.x, high.x)
+        && fits(nurbs.knots_v(), low.y, high.y);
     Ok(fits.then_some(nurbs))
 }
 
@@ -140,9 +142,8 @@ fn curve_run(curve: &Curve3d) -> Run {
 
 fn run(surface: &Surface, direction: usize) -> Run {
     match (surface, direction) {
-        (Surface::Plane(_), _) | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => {
-            Run::Straight
-        }
+        (Surface::Plane(_), _)
+        | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => Run::Straight,
         (Surface::Extrusion { curve, .. }, _) | (Surface::Revolution { curve, .. }, 1) => curve_run(curve),
         (Surface::BSpline(s), d) => Run::Pieces(s.knots()[d].knots().iter().map(|k| k.0).collect()),
         (Surface::Bezier(_), _) => Run::Pieces(vec![0.0, 1.0]),

@@ -1,5 +1,6 @@
 //! The course of a morph.
 
+use super::Morphed;
 use super::affine::AffineField;
 use super::associate::Match;
 use super::coverage::{self, Uncovered};
@@ -15,7 +16,6 @@ use super::represent::reknot;
 use super::select::{Selected, select};
 use super::space::displaced;
 use super::summary::{self, Outcome};
-use super::Morphed;
 use crate::brep::Brep;
 use crate::error::{Error, Result};
 use crate::fe::Field;
@@ -59,7 +59,8 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     let edges = rebuild::new_edges(&selected.hot, &cold)?;
     let out = rebuild::rebuild(&selected.brep, &selected.hot, &cold, &edges);
     step(progress, "measuring the result", 0.85)?;
-    let outcome = Outcome { selected: &selected, task: &task, fit: &fit, cold: &cold, edges: &edges, out: &out };
+    let outcome =
+        Outcome { selected: &selected, task: &task, fit: &fit, cold: &cold, edges: &edges, out: &out };
     let (mut report, nodes) = summary::summarise(&outcome, field, options, holdout.as_deref(), warnings);
     seconds.rebuild = clock.elapsed().as_secs_f64();
     seconds.total = start.elapsed().as_secs_f64();
@@ -146,7 +147,13 @@ impl<'a> Task<'a> {
             wanted.then(|| self.remainder(m))
         };
         let data = data::collect(self.hot, self.matches, &self.spacings, target);
-        let problem = Problem { hot: self.hot, data: &data, ties: &self.ties, prescribed: &self.prescribed, kinks: &self.kinks };
+        let problem = Problem {
+            hot: self.hot,
+            data: &data,
+            ties: &self.ties,
+            prescribed: &self.prescribed,
+            kinks: &self.kinks,
+        };
         fit::fit(&problem, progress)
     }
 
@@ -165,7 +172,8 @@ impl<'a> Task<'a> {
     /// What a fit without every tenth node misses there, by match; NaN at the others.
     fn holdout(&self, progress: Progress<'_>) -> Result<Vec<f64>> {
         let out = |id: i64| id % HOLDOUT == 0;
-        let fit = self.fit(&|id| !out(id), &|_, s| progress("fitting without every tenth node", 0.7 + 0.05 * s))?;
+        let fit =
+            self.fit(&|id| !out(id), &|_, s| progress("fitting without every tenth node", 0.7 + 0.05 * s))?;
         let missed = |m: &Match| {
             if !out(self.ids[m.node as usize]) {
                 return f64::NAN;
@@ -188,7 +196,10 @@ fn fixed_faces(hot: &Hot, options: &Options) -> Result<Vec<bool>> {
     let count = hot.faces.len();
     for &f in options.moving_faces.iter().chain(&options.fixed_faces) {
         if f == 0 || f > count {
-            return Err(Error::Argument { name: "faces", why: format!("there is no face {f}: the solid has {count}") });
+            return Err(Error::Argument {
+                name: "faces",
+                why: format!("there is no face {f}: the solid has {count}"),
+            });
         }
     }
     let moves = |f: usize| options.moving_faces.is_empty() || options.moving_faces.contains(&f);
@@ -219,7 +230,8 @@ fn held_faces(hot: &Hot, matches: &[Match], displacements: &[DVec3], largest: f6
 /// face ends on it, the gradient jumps along the patch's own edges.
 fn kinks(hot: &Hot, held: &[bool]) -> Vec<[Vec<f64>; 2]> {
     let clamped = |j: &Joint| j.sides.len() == 2 && held[j.sides[0].face] != held[j.sides[1].face];
-    let corners: Vec<usize> = hot.joints.iter().filter(|j| clamped(j)).flat_map(|j| j.vertices).flatten().collect();
+    let corners: Vec<usize> =
+        hot.joints.iter().filter(|j| clamped(j)).flat_map(|j| j.vertices).flatten().collect();
     let mut out = vec![[Vec::new(), Vec::new()]; hot.patches.len()];
     for joint in &hot.joints {
         for (end, vertex) in joint.vertices.iter().enumerate() {
@@ -243,7 +255,12 @@ fn kinks(hot: &Hot, held: &[bool]) -> Vec<[Vec<f64>; 2]> {
     out
 }
 
-fn check_coverage(bare: &[Uncovered], left: f64, options: &Options, warnings: &mut Vec<String>) -> Result<()> {
+fn check_coverage(
+    bare: &[Uncovered],
+    left: f64,
+    options: &Options,
+    warnings: &mut Vec<String>,
+) -> Result<()> {
     if bare.is_empty() {
         return Ok(());
     }

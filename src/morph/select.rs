@@ -85,7 +85,11 @@ fn choose(
     };
     if count > 1 {
         let left: Vec<String> = failures.iter().map(|(n, _)| n.to_string()).collect();
-        let why = if left.is_empty() { "as asked".to_string() } else { format!("no nodes on solid {}", left.join(", ")) };
+        let why = if left.is_empty() {
+            "as asked".to_string()
+        } else {
+            format!("no nodes on solid {}", left.join(", "))
+        };
         warnings.push(format!("the part has {count} solids; only solid {n} is morphed and written ({why})"));
     }
     warnings.extend(said);
@@ -100,7 +104,8 @@ fn attempt(brep: Brep, field: &Field, options: &Options, warnings: &mut Vec<Stri
     let hot = Hot::new(&brep)?;
     let nodes = Nodes::new(field, options, size_mm(&hot), warnings)?;
     let clock = std::time::Instant::now();
-    let association = associate(&hot, &nodes.points, &nodes.usable, &field.mid_sides, nodes.match_tolerance_mm);
+    let association =
+        associate(&hot, &nodes.points, &nodes.usable, &field.mid_sides, nodes.match_tolerance_mm);
     check(&hot, field, &nodes, &association, options, warnings)?;
     Ok(Selected { brep, hot, nodes, association, seconds: clock.elapsed().as_secs_f64() })
 }
@@ -148,7 +153,8 @@ fn check(
             "the field has no elements: {on} of {usable} nodes lie on the faces, the others are taken as inside"
         ));
     } else if lost > 0 {
-        let ids: Vec<String> = association.unmatched.iter().take(10).map(|&n| nodes.ids[n as usize].to_string()).collect();
+        let ids: Vec<String> =
+            association.unmatched.iter().take(10).map(|&n| nodes.ids[n as usize].to_string()).collect();
         warnings.push(format!(
             "{lost} of {usable} surface nodes lie on no face within {:.3e} mm and are not used (ids {}{})",
             nodes.match_tolerance_mm,

@@ -103,7 +103,8 @@ impl Space {
         let lines = |k: &KnotVector, at: &[f64]| at.iter().map(|&t| Line::at(k, t)).collect::<Vec<_>>();
         let (lu, lv) = (lines(&self.ku, cu.points()), lines(&self.kv, cv.points()));
         let value = |a: &Line, b: &Line| self.apply(&combine(a, b, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), x);
-        let mut out: Vec<DVec3> = lu.iter().flat_map(|a| lv.iter().map(move |b| (a, b))).map(|(a, b)| value(a, b)).collect();
+        let mut out: Vec<DVec3> =
+            lu.iter().flat_map(|a| lv.iter().map(move |b| (a, b))).map(|(a, b)| value(a, b)).collect();
         Collocation::poles_tensor(&cu, &cv, &mut out);
         Ok(out)
     }

@@ -51,16 +51,14 @@ pub fn summarise(
     let matches = &association.matches[..];
     let figures = measure::at_nodes(hot, outcome.cold, matches, &nodes.displacements);
     let faces = faces(outcome, options, &figures, holdout);
-    let edges =
-        measure::edges(hot, brep, outcome.cold, outcome.edges, &outcome.task.hot_angles_deg, &outcome.task.held);
-    if std::env::var("DBG").is_ok() {
-        for p in &hot.patches { eprintln!("patch faces {:?} err {:.1e} poles {}x{} breaks u {:?} v {:.3?} mult {:?}", p.faces.iter().map(|f| f + 1).collect::<Vec<_>>(), p.error_mm, p.hot.knots_u().len(), p.hot.knots_v().len(), p.hot.knots_u().breaks(), p.hot.knots_v().breaks(), p.hot.knots_v().breaks_and_multiplicities().iter().map(|x| x.1).collect::<Vec<_>>()); }
-        for (k, j) in hot.joints.iter().enumerate() {
-            let g = super::rebuild::gap_mm(j, None, |p, u, v| hot.patches[p].hot.point(u, v));
-            let c = super::rebuild::gap_mm(j, None, |p, u, v| outcome.cold[p].point(u, v));
-            eprintln!("joint {} hot patch gap {:.1e} cold {:.1e} total {:.1e}", k + 1, g, c, outcome.edges[k].gap_mm);
-        }
-    }
+    let edges = measure::edges(
+        hot,
+        brep,
+        outcome.cold,
+        outcome.edges,
+        &outcome.task.hot_angles_deg,
+        &outcome.task.held,
+    );
     let before = mass(hot, &hot.patches.iter().map(|p| p.hot.clone()).collect::<Vec<_>>());
     let after = mass(hot, outcome.cold);
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
@@ -162,7 +160,8 @@ fn spans(outcome: &Outcome<'_>, face: usize, own: &[super::associate::Match]) ->
     let (mut all, mut empty) = (0, 0);
     for k in 0..cells.count.len() {
         let (i, j) = cells.place(k);
-        let middle = glam::DVec2::new(0.5 * (cells.us[i] + cells.us[i + 1]), 0.5 * (cells.vs[j] + cells.vs[j + 1]));
+        let middle =
+            glam::DVec2::new(0.5 * (cells.us[i] + cells.us[i + 1]), 0.5 * (cells.vs[j] + cells.vs[j + 1]));
         if cells.count[k] > 0 || f.trim.contains(middle) {
             all += 1;
             empty += usize::from(cells.count[k] == 0);
@@ -171,9 +170,16 @@ fn spans(outcome: &Outcome<'_>, face: usize, own: &[super::associate::Match]) ->
     (all, empty)
 }
 
-fn warn(outcome: &Outcome<'_>, options: &Options, figures: &[NodeFigures], folded: usize, warnings: &mut Vec<String>) {
+fn warn(
+    outcome: &Outcome<'_>,
+    options: &Options,
+    figures: &[NodeFigures],
+    folded: usize,
+    warnings: &mut Vec<String>,
+) {
     if folded > 0 {
-        warnings.push(format!("the result is folded: {folded} sampled normals are turned against the input's"));
+        warnings
+            .push(format!("the result is folded: {folded} sampled normals are turned against the input's"));
     }
     if options.factor < 0.0 {
         let second = figures.iter().map(|f| f.second_order).fold(0.0, f64::max);
@@ -187,8 +193,8 @@ fn warn(outcome: &Outcome<'_>, options: &Options, figures: &[NodeFigures], folde
         (0..faces.len()).filter(|f| outcome.task.held[*f]).map(|f| face_name(options, f)).collect();
     if !held.is_empty() {
         warnings.push(format!(
-            "the field holds {} still: the gradient jumps at their edges, where tangent joints are kept at the price of a \
-             larger deviation",
+            "the field holds {} still: the gradient jumps at their edges, and joints that were tangent \
+             there open by what the field asks",
             held.join(", ")
         ));
     }

@@ -18,18 +18,15 @@ pub const TARGET_MM: f64 = 1.5e-5;
 /// Shortest side of a cell in node spacings, as long as only nodes ask for more.
 const SHORTEST: f64 = 2.0;
 /// A residual that asks for knots as dense as edges do, mm: the field is singular there.
-const COARSE_MM: f64 = 1e-4;
+const SINGULAR_MM: f64 = 1e-4;
 /// Shortest side of a cell in node spacings where an edge or a singularity asks for more.
 pub const SHORTEST_AT_EDGE: f64 = 0.5;
-fn coarse() -> f64 { std::env::var("SC").map_or(0.5, |w| w.parse().unwrap()) }
+/// The same where the field is singular.
+const SHORTEST_AT_SINGULARITY: f64 = 0.12;
 /// Gauss points and weights on (0, 1), two and three.
 const GAUSS: [&[(f64, f64)]; 2] = [
     &[(0.211_324_865_405_187_13, 0.5), (0.788_675_134_594_812_9, 0.5)],
-    &[
-        (0.112_701_665_379_258_3, 5.0 / 18.0),
-        (0.5, 8.0 / 18.0),
-        (0.887_298_334_620_741_7, 5.0 / 18.0),
-    ],
+    &[(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)],
 ];
 
 /// The cells of a space (its non-empty knot spans) with what is known of each.
@@ -76,7 +73,8 @@ impl Cells {
                     (j > 0).then(|| k - 1),
                     (j + 1 < columns).then(|| k + 1),
                 ];
-                let known: Vec<f64> = around.into_iter().flatten().map(|n| old[n]).filter(|s| *s > 0.0).collect();
+                let known: Vec<f64> =
+                    around.into_iter().flatten().map(|n| old[n]).filter(|s| *s > 0.0).collect();
                 if !known.is_empty() {
                     self.spacing[k] = known.iter().sum::<f64>() / known.len() as f64;
                 }
@@ -90,9 +88,7 @@ impl Cells {
 
     /// The cell of a parameter pair.
     pub fn index(&self, uv: DVec2) -> usize {
-        let at = |breaks: &[f64], t: f64| {
-            breaks.partition_point(|&b| b <= t).clamp(1, breaks.len() - 1) - 1
-        };
+        let at = |breaks: &[f64], t: f64| breaks.partition_point(|&b| b <= t).clamp(1, breaks.len() - 1) - 1;
         at(&self.us, uv.x) * (self.vs.len() - 1) + at(&self.vs, uv.y)
     }
 
@@ -146,7 +142,12 @@ fn add_bending(space: &Space, hot: &NurbsSurface, cells: &Cells, equations: &mut
 
 /// Cells whose data are missed by more than the target, as knots to insert: the longer side is
 /// halved, never below twice the node spacing.
-pub fn mark(cells: &Cells, hot: &NurbsSurface, residuals: &[(usize, f64)], shortest: impl Fn(usize) -> f64) -> Marks {
+pub fn mark(
+    cells: &Cells,
+    hot: &NurbsSurface,
+    residuals: &[(usize, f64)],
+    shortest: impl Fn(usize) -> f64,
+) -> Marks {
     let mut marks = Marks::new(cells);
     let mut worst = vec![0.0f64; cells.count.len()];
     for &(k, r) in residuals {
@@ -154,7 +155,7 @@ pub fn mark(cells: &Cells, hot: &NurbsSurface, residuals: &[(usize, f64)], short
     }
     for (k, &r) in worst.iter().enumerate() {
         if r > TARGET_MM {
-            let shortest = if r > COARSE_MM { coarse() } else { shortest(k) };
+            let shortest = if r > SINGULAR_MM { SHORTEST_AT_SINGULARITY } else { shortest(k) };
             marks.halve_longer(cells, hot, k, shortest * cells.spacing[k]);
         }
     }
@@ -201,7 +202,10 @@ impl Marks {
             breaks.split_near(marked, &hot.breaks());
             breaks.knots()
         };
-        Ok(Space { ku: halve(&space.ku, &self.u, hot.knots_u())?, kv: halve(&space.kv, &self.v, hot.knots_v())? })
+        Ok(Space {
+            ku: halve(&space.ku, &self.u, hot.knots_u())?,
+            kv: halve(&space.kv, &self.v, hot.knots_v())?,
+        })
     }
 }
 

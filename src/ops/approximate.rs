@@ -96,7 +96,8 @@ pub fn curve<P: Point + crate::linalg::banded::Rhs>(
         collocation.poles(&mut poles);
         let fitted = NurbsCurve::new(knots, poles, None)?;
         let errors: Vec<f64> = breaks.samples().iter().map(|&t| (fitted.point(t) - f(t)).length()).collect();
-        let worst: Vec<f64> = errors.chunks(SAMPLES.len()).map(|e| e.iter().copied().fold(0.0, f64::max)).collect();
+        let worst: Vec<f64> =
+            errors.chunks(SAMPLES.len()).map(|e| e.iter().copied().fold(0.0, f64::max)).collect();
         let marked = Breaks::worst(&worst, tolerance, limit);
         if !marked.contains(&true) {
             return Ok((fitted, errors.into_iter().fold(0.0, f64::max)));
@@ -134,7 +135,10 @@ pub fn surface(
         let error_u = worst(&u.samples(), &|a| cv.points().iter().map(|&b| error(a, b)).fold(0.0, f64::max));
         let error_v = worst(&v.samples(), &|b| cu.points().iter().map(|&a| error(a, b)).fold(0.0, f64::max));
         let largest = error_u.iter().chain(&error_v).copied().fold(0.0, f64::max);
-        let (mu, mv) = (Breaks::worst(&error_u, 0.5 * tolerance, limit), Breaks::worst(&error_v, 0.5 * tolerance, limit));
+        let (mu, mv) = (
+            Breaks::worst(&error_u, 0.5 * tolerance, limit),
+            Breaks::worst(&error_v, 0.5 * tolerance, limit),
+        );
         if !mu.iter().chain(&mv).any(|&m| m) {
             return Ok((fitted, largest));
         }
