@@ -220,10 +220,11 @@ fn local_affine(
         points[patch].push(m.foot.point);
         left[patch].push(displacements[m.node as usize] - affine.at(m.foot.point));
     }
-    let fit = |(x, d): (&Vec<DVec3>, &Vec<DVec3>)| {
-        if x.len() < LOCAL_NODES { AffineField::NONE } else { AffineField::fit(x, d) }
+    let fit = |p: usize| {
+        let few = points[p].len() < LOCAL_NODES || hot.patches[p].own_poles;
+        if few { AffineField::NONE } else { AffineField::fit(&points[p], &left[p]) }
     };
-    points.iter().zip(&left).map(fit).collect()
+    (0..hot.patches.len()).map(fit).collect()
 }
 
 /// The input's own spline, if the surface is one.
