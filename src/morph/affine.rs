@@ -17,7 +17,7 @@ pub struct AffineField {
 
 /// Directions in which the points spread less than this fraction of their largest spread carry
 /// no gradient.
-const FLAT: f64 = 1e-6;
+const FLAT: f64 = 1e-4;
 
 impl AffineField {
     /// Least squares over points and their displacements; without points, no motion.
@@ -47,6 +47,9 @@ impl AffineField {
         let column = |j: usize| DVec3::new(a[(0, j)], a[(1, j)], a[(2, j)]);
         Self { linear: DMat3::from_cols(column(0), column(1), column(2)), centre, shift }
     }
+
+    /// No displacement.
+    pub const NONE: Self = Self { linear: DMat3::ZERO, centre: DVec3::ZERO, shift: DVec3::ZERO };
 
     /// The displacement at `x`.
     pub fn at(&self, x: DVec3) -> DVec3 {

@@ -1,11 +1,13 @@
 //! The fit of the whole solid: each patch on its own to find its knots, then all together.
 
+use super::affine::AffineField;
 use super::data::PatchData;
 use super::hot::Hot;
-use super::links::{self, JointLinks, Tie};
+use super::links::{self, Context, JointLinks, Tie};
 use super::options::Progress;
+use super::refine::{Limit, Marks};
 use super::space::Space;
-use super::surface_fit::{self, Cells, Marks, SHORTEST_AT_EDGE};
+use super::surface_fit::{self, Cells, SHORTEST, SHORTEST_AT_EDGE};
 use super::system::{self, Block, PRESCRIBED};
 use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
@@ -15,10 +17,8 @@ use rayon::prelude::*;
 const ROUNDS: usize = 4;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
-/// Nodes for each pole at least.
-const NODES_PER_POLE: usize = 3;
-/// Growth of a patch whose poles are the user's own.
-const OWN_GROWTH: usize = 4;
+/// Nodes for each cell of a converted surface, fitted alone and together.
+const NODES_PER_CELL: [usize; 2] = [3, 1];
 
 /// The fitted displacement.
 #[derive(Debug, Clone)]
@@ -44,6 +44,8 @@ pub struct Problem<'a> {
     pub hot: &'a Hot,
     /// Data of each patch.
     pub data: &'a [PatchData],
+    /// Affine fields of the patches, to which the fitted displacements are added.
+    pub affine: &'a [AffineField],
     /// How each joint is tied.
     pub ties: &'a [Tie],
     /// Prescribed displacement coefficients of patches that must not move freely, over the knots
@@ -67,7 +69,12 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
             Some(_) => Ok(Space { ku: patch.hot.knots_u().clone(), kv: patch.hot.knots_v().clone() }),
             None => {
                 let start = patch.space.with_kinks(&problem.kinks[p])?;
-                surface_fit::fit_alone(start, &patch.hot, &problem.data[p], budget(problem, p))
+                surface_fit::fit_alone(
+                    start,
+                    &patch.hot,
+                    &problem.data[p],
+                    &limit(problem, p, NODES_PER_CELL[0]),
+                )
             }
         })
         .collect::<Result<_>>()?;
@@ -87,11 +94,9 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
     Ok(Fit { spaces, coefficients })
 }
 
-/// Cells that the displacement of a patch may have.
-fn budget(problem: &Problem<'_>, patch: usize) -> usize {
-    let p = &problem.hot.patches[patch];
-    let nodes = problem.data[patch].data.len() / NODES_PER_POLE;
-    if p.own_poles { nodes.min(OWN_GROWTH * p.space.cells()) } else { nodes }
+/// How far a patch may be refined.
+fn limit(problem: &Problem<'_>, patch: usize, nodes_per_cell: usize) -> Limit {
+    Limit::new(&problem.hot.patches[patch], problem.data[patch].data.len(), nodes_per_cell)
 }
 
 struct Coupled {
@@ -121,7 +126,10 @@ impl Coupled {
             .joints
             .par_iter()
             .zip(problem.ties)
-            .map(|(joint, &tie)| links::links(hot, joint, spaces, tie, joint_spacing(problem, joint)))
+            .map(|(joint, &tie)| {
+                let spacing = joint_spacing(problem, joint);
+                links::links(hot, joint, &Context { spaces, affine: problem.affine, tie, spacing })
+            })
             .collect();
         let all: Vec<_> = links.iter().flat_map(|l| l.position.iter().chain(&l.tangent)).cloned().collect();
         let coefficients = system::solve(&blocks, &all, count)?;
@@ -131,44 +139,36 @@ impl Coupled {
     /// Spaces with finer knots where edges gape or nodes are missed; none if nothing is asked.
     fn refine(&self, problem: &Problem<'_>, spaces: &[Space]) -> Result<Option<Vec<Space>>> {
         let hot = problem.hot;
-        let mut marks: Vec<Marks> = self
-            .cells
-            .par_iter()
-            .enumerate()
-            .map(|(p, cells)| {
-                let residuals =
-                    surface_fit::residuals(&spaces[p], &problem.data[p], cells, &self.coefficients[p]);
-                if spaces[p].cells() >= 3 * budget(problem, p) {
-                    return Marks::new(cells);
-                }
-                let mut at_edge = vec![false; cells.count.len()];
-                for (joint, links) in hot.joints.iter().zip(&self.links) {
-                    for side in joint.sides.iter().filter(|s| s.patch == p) {
-                        for &t in &links.parameters {
-                            at_edge[cells.index(side.pcurve.point(t))] = true;
-                        }
-                    }
-                }
-                surface_fit::mark(cells, &hot.patches[p].hot, &residuals, |k| {
-                    if at_edge[k] { SHORTEST_AT_EDGE } else { 2.0 }
-                })
-            })
-            .collect();
+        let mut marks: Vec<Marks> =
+            (0..spaces.len()).into_par_iter().map(|p| self.mark_missed(problem, &spaces[p], p)).collect();
         for (joint, links) in hot.joints.iter().zip(&self.links) {
             self.mark_gaping(problem, joint, links, &mut marks);
         }
         let mut asked = false;
         let mut finer = Vec::with_capacity(spaces.len());
         for (p, (space, marks)) in spaces.iter().zip(&marks).enumerate() {
-            let wanted = marks.count() > 0 && problem.prescribed[p].is_none();
-            asked |= wanted;
-            finer.push(if wanted {
-                marks.refine(space, &problem.hot.patches[p].hot)?
-            } else {
-                space.clone()
-            });
+            let refined = match problem.prescribed[p] {
+                Some(_) => None,
+                None => marks.refine(space, &hot.patches[p].hot, &limit(problem, p, NODES_PER_CELL[1]))?,
+            };
+            asked |= refined.is_some();
+            finer.push(refined.unwrap_or_else(|| space.clone()));
         }
         Ok(asked.then_some(finer))
+    }
+
+    /// Asks for finer knots where a patch misses its data, finer at edges than inside.
+    fn mark_missed(&self, problem: &Problem<'_>, space: &Space, p: usize) -> Marks {
+        let cells = &self.cells[p];
+        let mut at_edge = vec![false; cells.count.len()];
+        for (joint, links) in problem.hot.joints.iter().zip(&self.links) {
+            for side in joint.sides.iter().filter(|s| s.patch == p) {
+                links.parameters.iter().for_each(|&t| at_edge[cells.index(side.pcurve.point(t))] = true);
+            }
+        }
+        let residuals = surface_fit::residuals(space, &problem.data[p], cells, &self.coefficients[p]);
+        let shortest = |k: usize| if at_edge[k] { SHORTEST_AT_EDGE } else { SHORTEST };
+        surface_fit::mark(cells, &problem.hot.patches[p].hot, &residuals, shortest)
     }
 
     /// Asks for finer knots on the coarser side of every sample at which a joint gapes.
@@ -180,7 +180,8 @@ impl Coupled {
         marks: &mut [Marks],
     ) {
         for (link, &t) in links.position.iter().zip(&links.parameters) {
-            if system::jump(&self.blocks, link, &self.coefficients).length() < JUMP_MM {
+            let jump = system::jump(&self.blocks, link, &self.coefficients).length();
+            if jump < JUMP_MM {
                 continue;
             }
             let side = |s: usize| {
@@ -194,7 +195,7 @@ impl Coupled {
             for (p, k, size) in [a, b] {
                 if size > 0.7 * a.2.max(b.2) {
                     let shortest = SHORTEST_AT_EDGE * self.cells[p].spacing[k];
-                    marks[p].halve_longer(&self.cells[p], &problem.hot.patches[p].hot, k, shortest);
+                    marks[p].halve_longer(&self.cells[p], &problem.hot.patches[p].hot, k, shortest, jump);
                 }
             }
         }

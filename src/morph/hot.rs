@@ -32,6 +32,8 @@ pub struct Patch {
     pub space: Space,
     /// Whether the spline's poles are the input's own.
     pub own_poles: bool,
+    /// Number of poles of an input spline of such degree that a user may edit them.
+    pub user_poles: Option<usize>,
     /// What the spline misses of the input surface, mm.
     pub error_mm: f64,
     /// Corners of the box that the faces cover in the parameter plane.
@@ -230,6 +232,7 @@ impl Window {
             faces: self.faces,
             hot: r.surface,
             own_poles: r.own_poles,
+            user_poles: r.user_poles,
             error_mm: r.error_mm,
             window: self.corners,
         })

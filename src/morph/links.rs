@@ -1,6 +1,7 @@
 //! Rows that keep neighbouring patches together: equal displacement along every edge, and on
 //! tangent edges equal derivative across it, so that tangent planes map alike.
 
+use super::affine::AffineField;
 use super::hot::{Hot, Joint};
 use super::pieces::between_knots;
 use super::space::Space;
@@ -76,30 +77,45 @@ pub fn tie(joint: &Joint, angle_deg: f64, held: &[bool]) -> Tie {
     if angle_deg < TANGENT_DEG && !clamped { Tie::Tangent } else { Tie::Position }
 }
 
-/// The links of `joint`; `spacing` is the distance between nodes along it, mm.
-pub fn links(hot: &Hot, joint: &Joint, spaces: &[Space], tie: Tie, spacing: f64) -> JointLinks {
+/// What the links of a joint depend on besides its geometry.
+pub struct Context<'a> {
+    /// Spaces of the patches.
+    pub spaces: &'a [Space],
+    /// Affine fields of the patches, to which their displacements are added.
+    pub affine: &'a [AffineField],
+    /// How the joint is tied.
+    pub tie: Tie,
+    /// Distance between nodes along it, mm.
+    pub spacing: f64,
+}
+
+/// The links of `joint`.
+pub fn links(hot: &Hot, joint: &Joint, context: &Context<'_>) -> JointLinks {
     let mut out = JointLinks::default();
     if joint.degenerated || joint.sides.len() != 2 {
         return out;
     }
+    let spaces = context.spaces;
     let parameters = sample_parameters(joint, spaces);
     let [a, b] = [joint.sides[0].patch, joint.sides[1].patch];
     let traces: Vec<[Trace; 2]> =
         parameters.iter().map(|&t| [trace(hot, joint, 0, t), trace(hot, joint, 1, t)]).collect();
     let length: f64 = traces.windows(2).map(|w| (w[1][0].d.s - w[0][0].d.s).length()).sum();
-    let nodes = (length / spacing.max(1e-9)).max(1.0);
+    let nodes = (length / context.spacing.max(1e-9)).max(1.0);
     let share = nodes / parameters.len() as f64;
     let weight = WEIGHT * WEIGHT * share;
-    let tangent_weight = (TANGENT_WEIGHT * spacing).powi(2) * share;
+    let tangent_weight = (TANGENT_WEIGHT * context.spacing).powi(2) * share;
     for [ta, tb] in &traces {
+        let target = context.affine[b].at(tb.d.s) - context.affine[a].at(ta.d.s);
         let (ra, rb) = (spaces[a].value(ta.uv), spaces[b].value(tb.uv));
-        out.position.push(Link { a: (a, ra), b: (b, rb), weight });
-        if tie == Tie::Tangent {
+        out.position.push(Link { a: (a, ra), b: (b, rb), target, weight });
+        if context.tie == Tie::Tangent {
             let across = ta.d.normal().cross(ta.tangent()).normalize_or_zero();
             let (Some(wa), Some(wb)) = (ta.resolve(across), tb.resolve(across)) else { continue };
             let row = |s: &Space, uv: DVec2, w: DVec2| s.combine(uv, [0.0, w.x, w.y, 0.0, 0.0, 0.0]);
             let (ra, rb) = (row(&spaces[a], ta.uv, wa), row(&spaces[b], tb.uv, wb));
-            out.tangent.push(Link { a: (a, ra), b: (b, rb), weight: tangent_weight });
+            let target = (context.affine[b].linear - context.affine[a].linear) * across;
+            out.tangent.push(Link { a: (a, ra), b: (b, rb), target, weight: tangent_weight });
         }
     }
     out.parameters = parameters;

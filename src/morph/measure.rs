@@ -27,6 +27,7 @@ pub struct NodeFigures {
 /// Measures the result at every match.
 pub fn at_nodes(
     hot: &Hot,
+    brep: &Brep,
     cold: &[NurbsSurface],
     matches: &[Match],
     displacements: &[DVec3],
@@ -36,7 +37,7 @@ pub fn at_nodes(
         let (uv, u) = (m.foot.uv, displacements[m.node as usize]);
         let [_, au, av] = hot.patches[patch].hot.first_derivatives(uv.x, uv.y);
         let [s, bu, bv] = cold[patch].first_derivatives(uv.x, uv.y);
-        let target = m.foot.point + u;
+        let target = brep.surfaces[hot.patches[patch].surface].point(uv.x, uv.y) + u;
         let gradient = ((bu - au).length_squared() / au.length_squared().max(1e-30)
             + (bv - av).length_squared() / av.length_squared().max(1e-30))
         .sqrt();

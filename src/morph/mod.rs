@@ -21,6 +21,7 @@ pub mod options;
 pub mod pieces;
 pub mod planar;
 pub mod rebuild;
+pub mod refine;
 pub mod report;
 pub mod represent;
 mod run;

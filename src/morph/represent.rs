@@ -6,7 +6,7 @@
 //! fillets) is approximated by quintics.
 
 use super::space::{MAX_SPACE_DEGREE, Space};
-use crate::brep::{BSplineCurve, Curve3d, Surface};
+use crate::brep::{BSplineCurve, BSplineSurface, Curve3d, Surface};
 use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsSurface};
 use crate::ops::approximate::{self, Breaks};
@@ -15,9 +15,11 @@ use glam::{DVec2, DVec3};
 
 /// What an approximated quadric or revolution may miss, in mm.
 const EXACT_MM: f64 = 4e-7;
-/// What an approximated spline may miss, in mm: fillets come with errors of their own, and joints
-/// of real solids gape by more.
-const SPLINE_MM: f64 = 4e-6;
+/// What an approximated spline may miss, in mm. Fillets of high degree are rough between the
+/// places looked at, so more is asked of them than of the smooth rational strips a user draws,
+/// where few poles matter more.
+const FILLET_MM: f64 = 4e-6;
+const STRIP_MM: f64 = 1.6e-5;
 /// Spans at most along one direction of an approximated surface.
 const SPAN_LIMIT: usize = 200;
 /// Lowest degree of a displacement: below it second derivatives cannot vary smoothly.
@@ -34,6 +36,8 @@ pub struct Represented {
     pub surface: NurbsSurface,
     /// Whether its poles are the input's own.
     pub own_poles: bool,
+    /// Number of poles of an input spline of degree up to 5.
+    pub user_poles: Option<usize>,
     /// What it misses of the input, mm.
     pub error_mm: f64,
 }
@@ -46,12 +50,18 @@ pub struct Represented {
 pub fn represent(surface: &Surface, low: DVec2, high: DVec2) -> Result<Represented> {
     if let Some(nurbs) = smooth_polynomial(surface, low, high)? {
         let raised = raise(&nurbs)?;
-        return Ok(Represented { surface: raised, own_poles: true, error_mm: 0.0 });
+        let user_poles = Some(nurbs.poles().len());
+        return Ok(Represented { surface: raised, own_poles: true, user_poles, error_mm: 0.0 });
     }
     let (u, v) = (surface_breaks(surface, 0, low, high), surface_breaks(surface, 1, low, high));
-    let tolerance = if is_spline(surface) { SPLINE_MM } else { EXACT_MM };
+    let user_poles = user_poles(surface);
+    let tolerance = match (is_spline(surface), user_poles) {
+        (true, Some(_)) => STRIP_MM,
+        (true, None) => FILLET_MM,
+        _ => EXACT_MM,
+    };
     let (surface, error_mm) = approximate::surface(|u, v| surface.point(u, v), u, v, tolerance, SPAN_LIMIT)?;
-    Ok(Represented { surface, own_poles: false, error_mm })
+    Ok(Represented { surface, own_poles: false, user_poles, error_mm })
 }
 
 /// The surface's own spline where it can serve as it is.
@@ -94,6 +104,17 @@ pub fn reknot(nurbs: &NurbsSurface, space: &Space) -> Result<NurbsSurface> {
     NurbsSurface::new(ku, kv, poles, None)
 }
 
+/// Number of poles of a spline that a user may edit.
+fn user_poles(surface: &Surface) -> Option<usize> {
+    match surface {
+        Surface::BSpline(s) if s.knots().iter().all(|k| k.degree() <= MAX_SPACE_DEGREE) => {
+            Some(s.pole_counts().iter().product())
+        }
+        Surface::Trimmed { basis, .. } => user_poles(basis),
+        _ => None,
+    }
+}
+
 fn is_spline(surface: &Surface) -> bool {
     match surface {
         Surface::BSpline(_) | Surface::Bezier(_) => true,
@@ -131,6 +152,19 @@ fn kept(curve: &BSplineCurve<DVec3>) -> Option<Breaks> {
         .then(|| raised(nurbs.knots()))
 }
 
+/// The knots along one direction of a surface that is polynomial there, if they can be kept.
+fn kept_along(surface: &BSplineSurface, direction: usize) -> Option<Breaks> {
+    let nurbs = surface.to_nurbs().ok()?;
+    let (ku, kv) = (nurbs.knots_u(), nurbs.knots_v());
+    let knots = if direction == 0 { ku } else { kv };
+    let columns = kv.len();
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
+    let polynomial = nurbs.weights().is_none_or(|w| {
+        (0..w.len()).all(|k| same(w[k], if direction == 0 { w[k % columns] } else { w[k - k % columns] }))
+    });
+    (polynomial && !surface.knots()[direction].is_periodic() && is_smooth(knots)).then(|| raised(knots))
+}
+
 fn curve_run(curve: &Curve3d) -> Run {
     match curve {
         Curve3d::Line { .. } => Run::Straight,
@@ -147,6 +181,9 @@ fn run(surface: &Surface, direction: usize) -> Run {
         (Surface::Plane(_), _)
         | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => Run::Straight,
         (Surface::Extrusion { curve, .. }, _) | (Surface::Revolution { curve, .. }, 1) => curve_run(curve),
+        (Surface::BSpline(s), d) if kept_along(s, d).is_some() => {
+            kept_along(s, d).map_or(Run::Angular, Run::Kept)
+        }
         (Surface::BSpline(s), d) => Run::Pieces(s.knots()[d].knots().iter().map(|k| k.0).collect()),
         (Surface::Bezier(_), _) => Run::Pieces(vec![0.0, 1.0]),
         (Surface::Trimmed { basis, .. } | Surface::Offset { basis, .. }, d) => run(basis, d),

@@ -16,7 +16,7 @@ use super::represent::reknot;
 use super::select::{Selected, select};
 use super::space::displaced;
 use super::summary::{self, Outcome};
-use crate::brep::Brep;
+use crate::brep::{Brep, Surface};
 use crate::error::{Error, Result};
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
@@ -29,6 +29,8 @@ pub const HOLDOUT: i64 = 10;
 /// What an affine motion may leave at the nodes to be the whole answer, mm: the rounding of a
 /// six-digit results file.
 const AFFINE_MM: f64 = 3e-6;
+/// Nodes that an affine motion of one patch needs.
+const LOCAL_NODES: usize = 20;
 /// Kinks this close, as a fraction of the domain, are one, or lie on its border.
 const KINK_SLACK: f64 = 1e-3;
 /// A face whose displacements stay below this fraction of the largest is held.
@@ -75,6 +77,7 @@ fn step(progress: Progress<'_>, stage: &str, fraction: f64) -> Result<()> {
 
 /// What is to be fitted, ready to go.
 pub struct Task<'a> {
+    brep: &'a Brep,
     hot: &'a Hot,
     /// Nodes on faces.
     pub matches: &'a [Match],
@@ -82,6 +85,9 @@ pub struct Task<'a> {
     displacements: &'a [DVec3],
     /// The affine part of the displacement.
     pub affine: AffineField,
+    /// What an affine motion of each patch adds to it. Fillets come in uneven parameters, in which
+    /// even a linear field is rough: what moves with the poles need not be fitted.
+    local: Vec<AffineField>,
     /// Whether the affine part is the whole answer.
     pub affine_suffices: bool,
     spacings: Vec<f64>,
@@ -112,16 +118,21 @@ impl<'a> Task<'a> {
         let bare: Vec<Uncovered> = bare.into_iter().filter(|b| !fixed[b.face]).collect();
         check_coverage(&bare, left, options, warnings)?;
         let hot_angles_deg = measure::hot_angles_deg(hot, &selected.brep);
+        let local = local_affine(hot, &used, displacements, &affine);
         let held = held_faces(hot, matches, displacements, selected.nodes.largest_mm);
-        let stays = |p: &Patch| p.faces.iter().all(|f| fixed[*f] || held[*f]).then(|| stay(p, &affine));
-        let prescribed = hot.patches.iter().map(stays).collect();
+        let stays = |(p, local): (&Patch, &AffineField)| {
+            p.faces.iter().all(|f| fixed[*f] || held[*f]).then(|| stay(p, &affine, local))
+        };
+        let prescribed = hot.patches.iter().zip(&local).map(stays).collect();
         let ties = hot.joints.iter().zip(&hot_angles_deg).map(|(j, a)| links::tie(j, *a, &held)).collect();
         Ok(Self {
+            brep: &selected.brep,
             hot,
             matches,
             ids: &selected.nodes.ids,
             displacements,
             affine,
+            local,
             affine_suffices: left <= AFFINE_MM && !fixed.contains(&true),
             spacings,
             prescribed,
@@ -135,7 +146,9 @@ impl<'a> Task<'a> {
 
     /// The displacement left at a match by the affine part.
     fn remainder(&self, m: &Match) -> DVec3 {
-        self.displacements[m.node as usize] - self.affine.at(m.foot.point)
+        let patch = self.hot.faces[m.face as usize].patch;
+        let x = m.foot.point;
+        self.displacements[m.node as usize] - self.affine.at(x) - self.local[patch].at(x)
     }
 
     fn fit(&self, uses: &dyn Fn(i64) -> bool, progress: Progress<'_>) -> Result<Fit> {
@@ -150,6 +163,7 @@ impl<'a> Task<'a> {
         let problem = Problem {
             hot: self.hot,
             data: &data,
+            affine: &self.local,
             ties: &self.ties,
             prescribed: &self.prescribed,
             kinks: &self.kinks,
@@ -161,9 +175,15 @@ impl<'a> Task<'a> {
     fn surfaces(&self, fit: &Fit) -> Result<Vec<NurbsSurface>> {
         let one = |p: usize| {
             let (patch, space) = (&self.hot.patches[p], &fit.spaces[p]);
+            if let (true, Some(exact)) =
+                (self.affine_suffices, input_spline(&self.brep.surfaces[patch.surface])?)
+            {
+                return moved(exact, &self.affine);
+            }
             let both = space.union(patch.hot.knots_u(), patch.hot.knots_v())?;
             let hot = reknot(&patch.hot, &both)?;
-            let moved: Vec<DVec3> = hot.poles().iter().map(|x| *x + self.affine.at(*x)).collect();
+            let moved: Vec<DVec3> =
+                hot.poles().iter().map(|x| *x + self.affine.at(*x) + self.local[p].at(*x)).collect();
             displaced(&both, &moved, &space.lift(&fit.coefficients[p], &both)?)
         };
         (0..self.hot.patches.len()).into_par_iter().map(one).collect()
@@ -186,9 +206,45 @@ impl<'a> Task<'a> {
     }
 }
 
+/// The best affine motion of each patch beyond `affine`; none where few nodes tell.
+fn local_affine(
+    hot: &Hot,
+    used: &[&Match],
+    displacements: &[DVec3],
+    affine: &AffineField,
+) -> Vec<AffineField> {
+    let mut points = vec![Vec::new(); hot.patches.len()];
+    let mut left = points.clone();
+    for m in used {
+        let patch = hot.faces[m.face as usize].patch;
+        points[patch].push(m.foot.point);
+        left[patch].push(displacements[m.node as usize] - affine.at(m.foot.point));
+    }
+    let fit = |(x, d): (&Vec<DVec3>, &Vec<DVec3>)| {
+        if x.len() < LOCAL_NODES { AffineField::NONE } else { AffineField::fit(x, d) }
+    };
+    points.iter().zip(&left).map(fit).collect()
+}
+
+/// The input's own spline, if the surface is one.
+fn input_spline(surface: &Surface) -> Result<Option<NurbsSurface>> {
+    match surface {
+        Surface::BSpline(s) => Ok(Some(s.to_nurbs()?)),
+        Surface::Bezier(s) => Ok(Some(s.nurbs().clone())),
+        Surface::Trimmed { basis, .. } => input_spline(basis),
+        _ => Ok(None),
+    }
+}
+
+/// The surface moved by an affine displacement: exact, weights stay.
+fn moved(mut surface: NurbsSurface, affine: &AffineField) -> Result<NurbsSurface> {
+    surface.poles_mut().iter_mut().for_each(|p| *p += affine.at(*p));
+    Ok(surface)
+}
+
 /// Coefficients, over the knots of the patch itself, that undo the affine motion.
-fn stay(patch: &Patch, affine: &AffineField) -> Vec<DVec3> {
-    patch.hot.poles().iter().map(|x| -affine.at(*x)).collect()
+fn stay(patch: &Patch, affine: &AffineField, local: &AffineField) -> Vec<DVec3> {
+    patch.hot.poles().iter().map(|x| -affine.at(*x) - local.at(*x)).collect()
 }
 
 /// Which faces the user holds.

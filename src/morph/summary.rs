@@ -49,7 +49,7 @@ pub fn summarise(
 ) -> (Report, Vec<NodeResult>) {
     let Selected { brep, hot, nodes, association, .. } = outcome.selected;
     let matches = &association.matches[..];
-    let figures = measure::at_nodes(hot, outcome.cold, matches, &nodes.displacements);
+    let figures = measure::at_nodes(hot, brep, outcome.cold, matches, &nodes.displacements);
     let faces = faces(outcome, options, &figures, holdout);
     let edges = measure::edges(
         hot,
@@ -146,7 +146,7 @@ fn faces(
 /// Knots that a surface has more than another, both directions.
 fn inserted(before: &NurbsSurface, after: &NurbsSurface) -> usize {
     let knots = |s: &NurbsSurface| s.knots_u().flat().len() + s.knots_v().flat().len();
-    knots(after) - knots(before)
+    knots(after).saturating_sub(knots(before))
 }
 
 /// Spans whose middle lies on the face or that hold a node of it, and how many of them hold none.

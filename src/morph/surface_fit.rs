@@ -1,10 +1,10 @@
 //! The displacement of one patch: data, thin-plate regularisation, and knots where they are asked.
 
 use super::data::PatchData;
+use super::refine::{Limit, Marks};
 use super::space::{Line, NormalEquations, Space, bending, combine};
 use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsSurface};
-use crate::ops::approximate::Breaks;
 use glam::DVec2;
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ const RIDGE: f64 = 1e-10;
 /// Residual at which a cell is left alone, mm.
 pub const TARGET_MM: f64 = 1.5e-5;
 /// Shortest side of a cell in node spacings, as long as only nodes ask for more.
-const SHORTEST: f64 = 2.0;
+pub const SHORTEST: f64 = 2.0;
 /// A residual that asks for knots as dense as edges do, mm: the field is singular there.
 const SINGULAR_MM: f64 = 1e-4;
 /// Shortest side of a cell in node spacings where an edge or a singularity asks for more.
@@ -156,57 +156,10 @@ pub fn mark(
     for (k, &r) in worst.iter().enumerate() {
         if r > TARGET_MM {
             let shortest = if r > SINGULAR_MM { SHORTEST_AT_SINGULARITY } else { shortest(k) };
-            marks.halve_longer(cells, hot, k, shortest * cells.spacing[k]);
+            marks.halve_longer(cells, hot, k, shortest * cells.spacing[k], r);
         }
     }
     marks
-}
-
-/// Spans to halve in both directions.
-#[derive(Debug, Clone)]
-pub struct Marks {
-    /// Along u.
-    pub u: Vec<bool>,
-    /// Along v.
-    pub v: Vec<bool>,
-}
-
-impl Marks {
-    /// None yet.
-    pub fn new(cells: &Cells) -> Self {
-        Self { u: vec![false; cells.us.len() - 1], v: vec![false; cells.vs.len() - 1] }
-    }
-
-    /// Marks the longer side of a cell unless its halves would be below `shortest`, mm.
-    pub fn halve_longer(&mut self, cells: &Cells, hot: &NurbsSurface, k: usize, shortest: f64) {
-        let [a, b] = cells.sides(k, hot);
-        let (i, j) = cells.place(k);
-        if a.max(b) < 2.0 * shortest {
-            return;
-        }
-        if a >= b { self.u[i] = true } else { self.v[j] = true }
-    }
-
-    /// Number of knots to insert.
-    pub fn count(&self) -> usize {
-        self.u.iter().chain(&self.v).filter(|m| **m).count()
-    }
-
-    /// The space with the marked spans halved, at knots of `hot` where some are near.
-    ///
-    /// # Errors
-    /// As [`KnotVector::new`].
-    pub fn refine(&self, space: &Space, hot: &NurbsSurface) -> Result<Space> {
-        let halve = |k: &KnotVector, marked: &[bool], hot: &KnotVector| -> Result<KnotVector> {
-            let mut breaks = Breaks { degree: k.degree(), at: k.breaks_and_multiplicities() };
-            breaks.split_near(marked, &hot.breaks());
-            breaks.knots()
-        };
-        Ok(Space {
-            ku: halve(&space.ku, &self.u, hot.knots_u())?,
-            kv: halve(&space.kv, &self.v, hot.knots_v())?,
-        })
-    }
 }
 
 /// Cell and size of what each datum is missed by.
@@ -218,26 +171,21 @@ pub fn residuals(space: &Space, data: &PatchData, cells: &Cells, x: &[DVec3]) ->
 }
 
 /// Fits one patch on its own, inserting knots until its data are met, the mesh carries no more,
-/// or the number of cells reaches `budget`.
+/// or the limit is reached.
 ///
 /// # Errors
 /// [`crate::Error::Numerics`] where the equations cannot be solved.
-pub fn fit_alone(mut space: Space, hot: &NurbsSurface, data: &PatchData, budget: usize) -> Result<Space> {
+pub fn fit_alone(mut space: Space, hot: &NurbsSurface, data: &PatchData, limit: &Limit) -> Result<Space> {
     if data.data.is_empty() {
         return Ok(space);
     }
     loop {
         let cells = Cells::new(&space, data);
         let x = equations(&space, hot, data, &cells).solve()?;
-        let res = residuals(&space, data, &cells, &x);
-        let marks = mark(&cells, hot, &res, |_| SHORTEST);
-        if marks.count() == 0 {
-            return Ok(space);
+        let marks = mark(&cells, hot, &residuals(&space, data, &cells, &x), |_| SHORTEST);
+        match marks.refine(&space, hot, limit)? {
+            Some(finer) => space = finer,
+            None => return Ok(space),
         }
-        let finer = marks.refine(&space, hot)?;
-        if finer.cells() > budget {
-            return Ok(space);
-        }
-        space = finer;
     }
 }

@@ -26,13 +26,15 @@ pub struct Block {
     pub prescribed: Vec<DVec3>,
 }
 
-/// Asks `a · D_a = b · D_b`.
+/// Asks `a · D_a − b · D_b = target`.
 #[derive(Debug, Clone)]
 pub struct Link {
     /// Patch and functional on one side.
     pub a: (usize, Row),
     /// Patch and functional on the other side.
     pub b: (usize, Row),
+    /// Difference wanted.
+    pub target: DVec3,
     /// Weight of the square.
     pub weight: f64,
 }
@@ -57,7 +59,7 @@ pub fn solve(blocks: &[Block], links: &[Link], unknowns: usize) -> Result<Vec<Ve
 /// What a link misses.
 pub fn jump(blocks: &[Block], link: &Link, solution: &[Vec<DVec3>]) -> DVec3 {
     let side = |s: &(usize, Row)| blocks[s.0].space.apply(&s.1, &solution[s.0]);
-    side(&link.a) - side(&link.b)
+    side(&link.a) - side(&link.b) - link.target
 }
 
 fn scatter(block: &Block, values: &[DVec3], out: &mut [DVec3]) {
@@ -73,10 +75,10 @@ fn gather(block: &Block, x: &[DVec3]) -> Vec<DVec3> {
     known.map(|(&u, p)| if u == PRESCRIBED { *p } else { x[u as usize] }).collect()
 }
 
-/// Right-hand side of one link: its prescribed parts.
+/// Right-hand side of one link: what is wanted and what is prescribed.
 fn add_link_target(blocks: &[Block], link: &Link, rhs: &mut [DVec3]) {
     let known = |s: &(usize, Row)| blocks[s.0].space.apply(&s.1, &blocks[s.0].prescribed);
-    let target = (known(&link.b) - known(&link.a)) * link.weight;
+    let target = (link.target + known(&link.b) - known(&link.a)) * link.weight;
     for (side, sign) in [(&link.a, 1.0), (&link.b, -1.0)] {
         for_each_pole(&blocks[side.0], &side.1, |unknown, c| rhs[unknown] += target * (sign * c));
     }
@@ -204,7 +206,7 @@ mod tests {
     fn links(a: &Block, b: &Block) -> Vec<Link> {
         let at = |t: f64| {
             let (ra, rb) = (a.space.value(DVec2::new(1.0, t)), b.space.value(DVec2::new(0.0, t)));
-            Link { a: (0, ra), b: (1, rb), weight: 1e4 }
+            Link { a: (0, ra), b: (1, rb), target: DVec3::ZERO, weight: 1e4 }
         };
         (0..12).map(|k| at(k as f64 / 11.0)).collect()
     }
