@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     with Progress(options.quiet) as progress, Outputs() as outputs:
         progress("reading the part", 0.0)
         part = step.read(options.part)
-        result = _morph(options, part, progress)
+        result = _morph(options, part, progress, started)
         written = time.monotonic()
         _write_solid(options, part, result, outputs, progress)
         result.report.seconds["write"] += time.monotonic() - written
@@ -93,8 +93,9 @@ def _check_pictures() -> None:
         )
 
 
-def _morph(options: argparse.Namespace, part: step.StepPart, progress: Progress) -> _Result:
-    started = time.monotonic()
+def _morph(
+    options: argparse.Namespace, part: step.StepPart, progress: Progress, started: float
+) -> _Result:
     chosen = step.chosen_solid(part, options.solid)
     settings = _settings(options, part, chosen)
     shape = part.shape if chosen is None else part.shape.Solids[chosen]

@@ -121,7 +121,7 @@ def _figures(report: Report) -> str:
     shown = [
         ("largest deviation, mm", words.length(report.deviation_mm.max)),
         ("mean deviation, mm", words.length(report.deviation_mm.mean)),
-        ("nodes on the part", str(sum(face.nodes for face in report.faces))),
+        ("nodes on faces", str(sum(face.nodes for face in report.faces))),
         ("change of volume", f"{change:+.3%}"),
     ]
     if report.holdout_mm:
