@@ -51,8 +51,8 @@ fn plain_results(path: &Path) -> usize {
     for line in lines(path) {
         if line.starts_with(" -1") && line.len() == 49 {
             values.push([13, 25, 37].map(|first| line[first..first + 12].trim().parse().unwrap_or(f64::NAN)));
-        } else if line.starts_with(" -2") {
-            nodes.extend(line[3..].split_whitespace().filter_map(|word| word.parse::<usize>().ok()));
+        } else if let Some(row) = line.strip_prefix(" -2") {
+            nodes.extend(row.split_whitespace().filter_map(|word| word.parse::<usize>().ok()));
         }
     }
     values.len() + nodes.len()

@@ -36,7 +36,7 @@ impl Isometry {
         let row = |i: usize| DVec3::new(rows[i][0], rows[i][1], rows[i][2]);
         let m = DMat3::from_cols(row(0), row(1), row(2)).transpose();
         let defect = (m * m.transpose() - DMat3::IDENTITY).to_cols_array();
-        if defect.iter().any(|d| !(d.abs() <= RIGID)) {
+        if !defect.iter().all(|d| d.abs() <= RIGID) {
             let why = format!(
                 "location {number} is no rigid motion (determinant {}): scale the geometry instead",
                 m.determinant()
@@ -208,5 +208,57 @@ impl<'a> Placements<'a> {
             }
         }
         Ok(motion)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quarter turn about z, then a step along x.
+    const TURN: Location =
+        Location::Elementary([[0.0, -1.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
+    const STEP: Location =
+        Location::Elementary([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 5.0]]);
+    const MIRROR: Location =
+        Location::Elementary([[-1.0, 0.0, 0.0, 2.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
+
+    fn image(table: &[Location], entry: usize, point: DVec3) -> DVec3 {
+        let mut placements = Placements::new(table).unwrap();
+        let placement = placements.compose(0, entry).unwrap();
+        placements.motion(placement).map_or(point, |m| m.point(point))
+    }
+
+    #[test]
+    fn the_first_factor_acts_first() {
+        let table = [TURN, MIRROR, Location::Composite(vec![(1, 1), (2, 1)])];
+        assert_eq!(image(&table, 3, DVec3::new(3.0, 0.0, 0.0)), DVec3::new(1.0, 3.0, 0.0));
+    }
+
+    #[test]
+    fn a_location_undone_is_the_identity() {
+        let there_and_back = Location::Composite(vec![(1, 2), (2, -1), (2, 1), (1, -2)]);
+        let table = [TURN, STEP, there_and_back];
+        let mut placements = Placements::new(&table).unwrap();
+        assert_eq!(placements.compose(0, 3), Ok(0));
+        let turned = placements.compose(0, 1).unwrap();
+        assert_ne!(placements.compose(turned, 2), placements.compose(0, 2));
+    }
+
+    #[test]
+    fn powers_turn_as_often() {
+        for (power, expected) in [(4, DVec3::X), (-1, DVec3::ZERO), (401, DVec3::X + DVec3::Y)] {
+            let table = [TURN, Location::Composite(vec![(1, power)])];
+            assert!(image(&table, 2, DVec3::X).distance(expected) < 1e-13, "power {power}");
+        }
+    }
+
+    #[test]
+    fn mirrors_are_left_handed() {
+        let mut placements = Placements::new(&[MIRROR]).unwrap();
+        let once = placements.compose(0, 1).unwrap();
+        let twice = placements.compose(once, 1).unwrap();
+        assert_eq!(placements.motion(once).unwrap().handedness, -1.0);
+        assert_eq!(placements.motion(twice).unwrap().handedness, 1.0);
     }
 }

@@ -136,3 +136,31 @@ impl Space for DVec3 {
         tangent.cross(normal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn making_a_frame_again_changes_nothing() {
+        let (z, x, y) = (DVec3::new(0.1, 0.7, -0.3), DVec3::new(0.4, -0.2, 0.9), DVec3::new(1.0, 1.0, 1.0));
+        let frame = Frame::new(DVec3::ONE, z, x, y).unwrap();
+        assert_eq!(Frame::new(DVec3::ONE, frame.normal, frame.x, frame.y), Some(frame));
+        assert!(frame.x.dot(frame.normal).abs() < 1e-15 && frame.y.dot(y) > 0.0);
+    }
+
+    #[test]
+    fn frames_of_surfaces_keep_their_handedness() {
+        let side = |y| Frame::new(DVec3::ZERO, DVec3::Z, DVec3::X, y).unwrap().y;
+        assert_eq!([side(DVec3::Y), side(-DVec3::Y)], [DVec3::Y, -DVec3::Y]);
+        let flat = |y| DVec2::conic_frame(DVec2::ZERO, [DVec2::X, y, DVec2::ZERO]).unwrap().y;
+        assert_eq!([flat(DVec2::Y), flat(-DVec2::Y)], [DVec2::Y, -DVec2::Y]);
+    }
+
+    #[test]
+    fn null_and_parallel_axes_make_no_frame() {
+        for (z, x) in [(DVec3::ZERO, DVec3::X), (DVec3::Z, DVec3::ZERO), (DVec3::Z, -DVec3::Z)] {
+            assert_eq!(Frame::new(DVec3::ZERO, z, x, DVec3::Y), None);
+        }
+    }
+}

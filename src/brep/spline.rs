@@ -38,7 +38,8 @@ impl SplineKnots {
         else {
             return refuse(format!("{} knots: at least two are needed", knots.len()));
         };
-        if let Some(i) = knots.windows(2).position(|w| !(w[0].0 < w[1].0)) {
+        if let Some(i) = knots.windows(2).position(|w| w[0].0.partial_cmp(&w[1].0).is_none_or(|o| o.is_ge()))
+        {
             return refuse(format!("knots do not increase from {} to {}", knots[i].0, knots[i + 1].0));
         }
         for (i, &(knot, m)) in knots.iter().enumerate() {

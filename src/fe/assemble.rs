@@ -2,7 +2,7 @@
 
 use super::Field;
 use super::elements::Elements;
-use super::nodes::{NodeIndex, Rows, first_few};
+use super::nodes::{NodeIndex, Rows, count, first_few};
 use super::source::{Source, Step};
 use super::surface::{self, Surface};
 use crate::error::{Error, Result};
@@ -53,10 +53,8 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
     }
     let moved = parts.nodes.sort();
     if !moved.is_empty() {
-        let (count, ids) = (moved.len(), first_few(&moved));
-        return refuse(format!(
-            "{count} nodes have several different positions: {ids}; each node must have one"
-        ));
+        let (count, ids) = (count(&moved), first_few(&moved));
+        return refuse(format!("{count} with several different positions: {ids}; each node must have one"));
     }
     if let Some(why) = unusable(&parts.nodes, "coordinates") {
         return refuse(why);
@@ -67,14 +65,14 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
         return refuse(format!("{why}; the solution has diverged, or these nodes must be left out"));
     }
     if !conflicts.is_empty() {
-        let (count, ids) = (conflicts.len(), first_few(&conflicts));
-        warnings.push(format!("{count} nodes have several different displacements, the last is used: {ids}"));
+        let (count, ids) = (count(&conflicts), first_few(&conflicts));
+        warnings
+            .push(format!("{count} with several different displacements, of which the last is used: {ids}"));
     }
     let Rows { ids, values: points } = parts.nodes;
     let (displacements, strangers) = match_up(&ids, &parts.displacements);
     if strangers > 0 {
-        warnings
-            .push(format!("{strangers} displacements belong to nodes without coordinates and are not used"));
+        warnings.push(format!("displacements of nodes without coordinates, which are not used: {strangers}"));
     }
     let mut field = Field {
         name: name.clone(),
@@ -93,7 +91,7 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
     }
     if !missing.is_empty() {
         let (count, of, first) = (missing.len(), field.ids.len(), first_few(&missing));
-        field.warnings.push(format!("{count} of {of} nodes have no displacement: {first}"));
+        field.warnings.push(format!("{count} of {of} nodes without displacement: {first}"));
     }
     field.set_surface(&parts.elements);
     Ok(field)
@@ -103,8 +101,8 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
 fn unusable(rows: &Rows, what: &str) -> Option<String> {
     let bad = |(id, value): (&i64, &DVec3)| (!value.is_finite()).then_some(*id);
     let ids: Vec<i64> = rows.ids.iter().zip(&rows.values).filter_map(bad).collect();
-    let (count, first) = (ids.len(), first_few(&ids));
-    (count > 0).then(|| format!("{count} nodes have {what} that are no numbers (NaN or infinite): {first}"))
+    let (count, first) = (count(&ids), first_few(&ids));
+    (!ids.is_empty()).then(|| format!("{count} with {what} that are no numbers (NaN or infinite): {first}"))
 }
 
 /// Displacements in the order of `ids`, NaN where there is none, and the number of rows left over;
@@ -129,7 +127,7 @@ impl Field {
     /// Takes the surface of the elements over, as far as its nodes are in the field.
     pub(super) fn set_surface(&mut self, elements: &Elements) {
         for (kind, count) in &elements.unknown {
-            self.warnings.push(format!("{count} elements of {kind} are not understood"));
+            self.warnings.push(format!("elements that are not understood: {count} of {kind}"));
         }
         if !elements.kinds.iter().any(|kind| kind.shape.is_volume() || kind.shape.is_shell()) {
             return;
@@ -146,9 +144,9 @@ impl Field {
         if !lost.is_empty() {
             lost.sort_unstable();
             lost.dedup();
-            let (count, first) = (lost.len(), first_few(&lost));
+            let (count, first) = (count(&lost), first_few(&lost));
             self.warnings.push(format!(
-                "the elements refer to {count} nodes that are not there: {first}; the mesh's surface is not used"
+                "{count} of the elements without coordinates: {first}; the mesh's surface is not used"
             ));
             return;
         }
@@ -159,7 +157,7 @@ impl Field {
         if surface.crowded > 0 {
             let count = surface.crowded;
             self.warnings
-                .push(format!("{count} element faces belong to more than two elements: the mesh overlaps"));
+                .push(format!("the mesh overlaps itself: element faces of more than two elements: {count}"));
         }
         self.surface_nodes = Some(surface.nodes);
         self.mid_sides = surface.mid_sides;

@@ -126,7 +126,7 @@ fn layout(input: &mut Input) -> Result<(Layout, bool)> {
     let cells = separator.cells(line);
     let is_number =
         |cell: &&[u8]| cell.is_empty() || scan::whole_number(cell, separator.leaves_comma()).is_some();
-    let numbers = cells.iter().all(|cell| is_number(cell));
+    let numbers = cells.iter().all(is_number);
     let excerpt = scan::excerpt(line);
     if cells.len() < 3 {
         return Err(input.error(format!(

@@ -224,7 +224,7 @@ impl Deck {
         if !absent.is_empty() {
             let (count, of, first) = (absent.len(), field.ids.len(), first_few(&absent));
             field.warnings.push(format!(
-                "{count} of {of} nodes are not in the deck and keep the rounded coordinates of the results: {first}"
+                "{count} of {of} nodes missing in the deck, which keep the results' rounded coordinates: {first}"
             ));
         }
         field.points = points;

@@ -72,6 +72,10 @@ pub struct ReadOptions {
 
 /// Reads a field from a results file or a table; results and deck are read at the same time.
 ///
+/// Values that are no numbers, nodes at two places and files that end inside a block are refused.
+/// Warned of are nodes without displacement, nodes with several different displacements (the last
+/// is used), nodes that the deck lacks, and steps not chosen between (the last is used).
+///
 /// # Errors
 /// [`Error::Io`] for files that cannot be read, [`Error::Field`] for those that cannot be used.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Field> {

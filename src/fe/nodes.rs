@@ -89,6 +89,11 @@ impl<'a> NodeIndex<'a> {
     }
 }
 
+/// How many nodes these are, for messages.
+pub(super) fn count(ids: &[i64]) -> String {
+    if ids.len() == 1 { "1 node".into() } else { format!("{} nodes", ids.len()) }
+}
+
 /// The first few numbers of a list, for messages.
 pub(super) fn first_few(ids: &[i64]) -> String {
     const SHOWN: usize = 8;

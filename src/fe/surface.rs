@@ -1,12 +1,15 @@
 //! The surface of a mesh: the faces that only one volume element has.
 //!
-//! Faces are put into buckets by their smallest corner and compared within the bucket, so the work
-//! grows with the number of faces alone.
+//! Faces with the same smallest corner hang together in a chain, in which a new face is looked
+//! for. Chains are short, so the work grows with the number of elements alone.
 
-use super::elements::{ElementKind, FaceNodes};
+use super::elements::ElementKind;
 
 /// Stands for the mid-side nodes that a linear triangle lacks.
 pub const NO_NODE: u32 = u32::MAX;
+
+/// The end of a chain of faces.
+const NO_FACE: u32 = u32::MAX;
 
 /// The surface of a mesh, as indices of nodes.
 #[derive(Debug, Default, Clone, PartialEq)]
@@ -25,72 +28,68 @@ pub(super) struct Surface {
     pub crowded: usize,
 }
 
-/// A face of an element, to be compared with others.
+/// A face of an element, and how many elements have it.
 #[derive(Clone, Copy)]
 struct Face {
     /// Its distinct corners but the smallest, ascending, filled up with [`NO_NODE`].
     others: [u32; 3],
+    /// Next face with the same smallest corner.
+    next: u32,
     /// Where its element's nodes begin.
     element: u32,
     kind: ElementKind,
     local: u8,
+    owners: u8,
 }
 
 /// Extracts the surface of elements whose nodes are given one after the other as indices below
 /// `node_count`: the free faces of the volumes, or all shells where there are no volumes.
 pub(super) fn extract(kinds: &[ElementKind], nodes: &[u32], node_count: usize) -> Surface {
-    let (faces, starts) = bucketed_faces(kinds, nodes, node_count);
-    let mut surface = Surface::default();
-    let mut seen = vec![false; node_count];
     let shells = !kinds.iter().any(|kind| kind.shape.is_volume());
-    let mut bucket = Vec::new();
-    for range in starts.windows(2) {
-        bucket.clear();
-        bucket.extend_from_slice(&faces[range[0] as usize..range[1] as usize]);
-        bucket.sort_unstable_by_key(|face: &Face| (face.others, face.element, face.local));
-        for same in bucket.chunk_by(|a, b| a.others == b.others) {
-            if same.len() == 1 || shells {
-                surface.add(same[0], nodes, &mut seen);
-            }
-            surface.crowded += usize::from(same.len() > 2);
+    let faces = distinct_faces(kinds, nodes, node_count, shells);
+    let mut surface = Surface::default();
+    let mut marks = Marks { seen: vec![false; node_count], corners: vec![[NO_NODE; 2]; node_count] };
+    for face in &faces {
+        if face.owners == 1 || shells {
+            surface.add(face, nodes, &mut marks);
         }
+        surface.crowded += usize::from(face.owners > 2);
     }
-    surface.nodes = (0..node_count as u32).filter(|&node| seen[node as usize]).collect();
-    surface.mid_sides.sort_unstable();
-    surface.mid_sides.dedup_by_key(|mid_side| mid_side[0]);
+    surface.nodes = (0..node_count as u32).filter(|&node| marks.seen[node as usize]).collect();
+    let mid_sides = marks.corners.iter().enumerate().filter(|(_, corners)| corners[0] != NO_NODE);
+    surface.mid_sides = mid_sides.map(|(mid_side, &[a, b])| [mid_side as u32, a, b]).collect();
     surface
 }
 
-/// All faces, grouped by their smallest corner, and where the group of each corner begins.
-fn bucketed_faces(kinds: &[ElementKind], nodes: &[u32], node_count: usize) -> (Vec<Face>, Vec<u32>) {
-    let volumes = kinds.iter().any(|kind| kind.shape.is_volume());
-    let mut keyed = Vec::with_capacity(4 * kinds.len());
-    let mut starts = vec![0u32; node_count + 1];
+/// The different faces of the shells or of the volumes, in the order of the elements.
+fn distinct_faces(kinds: &[ElementKind], nodes: &[u32], node_count: usize, shells: bool) -> Vec<Face> {
+    let mut faces: Vec<Face> = Vec::with_capacity(3 * kinds.len());
+    let mut chains = vec![NO_FACE; node_count];
     let mut element = 0;
     for &kind in kinds {
-        if kind.shape.is_volume() || (!volumes && kind.shape.is_shell()) {
-            for (local, (corners, _)) in kind.faces().iter().enumerate() {
-                let Some((first, others)) = key(corners, &nodes[element..]) else { continue };
-                starts[first as usize + 1] += 1;
-                keyed.push((first, Face { others, element: element as u32, kind, local: local as u8 }));
+        let taken = if shells { kind.shape.is_shell() } else { kind.shape.is_volume() };
+        for (local, (corners, _)) in kind.faces().iter().enumerate().filter(|_| taken) {
+            let Some([first, others @ ..]) = distinct_corners(corners, &nodes[element..]) else { continue };
+            let chain = &mut chains[first as usize];
+            let mut place = *chain;
+            while place != NO_FACE && faces[place as usize].others != others {
+                place = faces[place as usize].next;
             }
+            if let Some(known) = faces.get_mut(place as usize) {
+                known.owners = known.owners.saturating_add(1);
+                continue;
+            }
+            let (next, element, local) = (*chain, element as u32, local as u8);
+            *chain = faces.len() as u32;
+            faces.push(Face { others, next, element, kind, local, owners: 1 });
         }
         element += kind.nodes();
     }
-    for node in 0..node_count {
-        starts[node + 1] += starts[node];
-    }
-    let mut next = starts.clone();
-    let mut faces = keyed.first().map_or(Vec::new(), |&(_, face)| vec![face; keyed.len()]);
-    for (first, face) in keyed {
-        faces[next[first as usize] as usize] = face;
-        next[first as usize] += 1;
-    }
-    (faces, starts)
+    faces
 }
 
-/// The smallest corner and the others in order; `None` for a face collapsed to a line.
-fn key(corners: &[u8], nodes: &[u32]) -> Option<(u32, [u32; 3])> {
+/// The distinct corners in order, filled up with [`NO_NODE`]; `None` for a face collapsed to a line.
+fn distinct_corners(corners: &[u8], nodes: &[u32]) -> Option<[u32; 4]> {
     let mut sorted = [NO_NODE; 4];
     for (place, &corner) in sorted.iter_mut().zip(corners) {
         *place = nodes[usize::from(corner)];
@@ -102,14 +101,21 @@ fn key(corners: &[u8], nodes: &[u32]) -> Option<(u32, [u32; 3])> {
         }
     }
     sorted.sort_unstable();
-    (sorted[2] != NO_NODE).then_some((sorted[0], [sorted[1], sorted[2], sorted[3]]))
+    (sorted[2] != NO_NODE).then_some(sorted)
+}
+
+/// What is known of each node while the faces are gathered.
+struct Marks {
+    /// Whether it is on the surface.
+    seen: Vec<bool>,
+    /// The corners that it lies between.
+    corners: Vec<[u32; 2]>,
 }
 
 impl Surface {
-    fn add(&mut self, face: Face, nodes: &[u32], seen: &mut [bool]) {
-        let (corners, mid_sides): FaceNodes = face.kind.faces()[usize::from(face.local)];
-        let element = &nodes[face.element as usize..];
-        let node = |local: &u8| element[usize::from(*local)];
+    fn add(&mut self, face: &Face, nodes: &[u32], marks: &mut Marks) {
+        let (corners, mid_sides) = face.kind.faces()[usize::from(face.local)];
+        let node = |local: &u8| nodes[face.element as usize + usize::from(*local)];
         let sides = corners.len();
         let mut c = [NO_NODE; 4];
         let mut m = [NO_NODE; 4];
@@ -119,10 +125,10 @@ impl Surface {
         }
         for side in 0..sides {
             let (a, b) = (c[side], c[(side + 1) % sides]);
-            seen[a as usize] = true;
+            marks.seen[a as usize] = true;
             if m[side] != NO_NODE && a != b {
-                seen[m[side] as usize] = true;
-                self.mid_sides.push([m[side], a.min(b), a.max(b)]);
+                marks.seen[m[side] as usize] = true;
+                marks.corners[m[side] as usize] = [a.min(b), a.max(b)];
             }
         }
         match (sides, face.kind.second_order) {

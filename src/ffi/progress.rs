@@ -51,13 +51,11 @@ pub(super) unsafe fn follow<T: Send>(
     })
 }
 
+/// Where a worker asks, with stage and fraction, and where it hears whether to go on.
+type Line = (mpsc::Sender<(String, f64)>, mpsc::Receiver<bool>);
+
 /// One question to the calling thread and its answer; `false` once it has said so.
-fn consult(
-    line: &Mutex<(mpsc::Sender<(String, f64)>, mpsc::Receiver<bool>)>,
-    stopped: &AtomicBool,
-    stage: &str,
-    fraction: f64,
-) -> bool {
+fn consult(line: &Mutex<Line>, stopped: &AtomicBool, stage: &str, fraction: f64) -> bool {
     let Ok(line) = line.lock() else { return false };
     if stopped.load(Ordering::Relaxed) {
         return false;

@@ -1,16 +1,41 @@
 //! Morphing a whole solid by a displacement field: `x_out = x_in + factor · u(x_in)`.
+//!
+//! Nodes are brought to the faces they lie on; the best affine motion is taken off; what remains
+//! is fitted on all faces at once by least squares with a thin-plate regularisation, tied along
+//! the edges; control points move by the sum. Based on Gaun, Huppertz and Bestle's
+//! *Heiß-Kalt-Geometrietransformation* (least squares for control-point displacements), carried
+//! from single surfaces to trimmed, watertight solids.
 
+pub mod affine;
+pub mod associate;
+pub mod coverage;
+pub mod data;
+pub mod fit;
+pub mod hot;
+pub mod links;
+pub mod locate;
+pub mod mass;
+pub mod measure;
+pub mod nodes;
 pub mod options;
+pub mod pieces;
+pub mod planar;
+pub mod rebuild;
 pub mod report;
+pub mod represent;
+mod run;
+pub mod select;
 pub mod space;
+mod summary;
+pub mod surface_fit;
 pub mod system;
+pub mod trim;
 
 pub use options::{Options, Progress};
 pub use report::Report;
+pub use run::morph;
 
 use crate::brep::Brep;
-use crate::error::{Error, Result};
-use crate::fe::Field;
 use glam::DVec3;
 
 /// A morphed solid and what is to be said about it.
@@ -37,13 +62,4 @@ pub struct NodeResult {
     pub displacement: DVec3,
     /// What the output surface misses there: `S' − (S + factor · u)`, mm.
     pub deviation: DVec3,
-}
-
-/// Morphs one solid of `brep` by `field`.
-///
-/// # Errors
-/// See [`Error`]; nothing is returned that does not hold together.
-pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
-    let _ = (brep, field, options, progress);
-    Err(Error::Internal { why: "not there yet".into() })
 }

@@ -5,6 +5,8 @@
 
 use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsSurface, SurfaceDerivatives};
+use crate::ops::approximate::Breaks;
+use crate::ops::interpolate::Collocation;
 use glam::{DVec2, DVec3};
 
 /// Highest degree of a displacement space.
@@ -61,6 +63,52 @@ impl Space {
         self.ku.len() * self.kv.len()
     }
 
+    /// Number of cells (non-empty knot spans).
+    pub fn cells(&self) -> usize {
+        (self.ku.breaks().len() - 1) * (self.kv.breaks().len() - 1)
+    }
+
+    /// The smallest space that contains this one and the one over `ku × kv`, of the same degrees.
+    ///
+    /// # Errors
+    /// As [`KnotVector::new`].
+    pub fn union(&self, ku: &KnotVector, kv: &KnotVector) -> Result<Space> {
+        Ok(Space { ku: union(&self.ku, ku)?, kv: union(&self.kv, kv)? })
+    }
+
+    /// The space whose functions may also have a kink at the given parameters.
+    ///
+    /// # Errors
+    /// As [`KnotVector::new`].
+    pub fn with_kinks(&self, kinks: &[Vec<f64>; 2]) -> Result<Space> {
+        let add = |k: &KnotVector, at: &[f64]| -> Result<KnotVector> {
+            let (a, b) = k.domain();
+            let mut breaks = Breaks { degree: k.degree(), at: vec![(a, 1)] };
+            breaks.at.extend(at.iter().map(|&t| (t, k.degree())));
+            breaks.at.push((b, 1));
+            union(k, &breaks.knots()?)
+        };
+        Ok(Space { ku: add(&self.ku, &kinks[0])?, kv: add(&self.kv, &kinks[1])? })
+    }
+
+    /// The coefficients over a space that contains this one.
+    ///
+    /// # Errors
+    /// As [`Collocation::new`].
+    pub fn lift(&self, x: &[DVec3], finer: &Space) -> Result<Vec<DVec3>> {
+        if self == finer {
+            return Ok(x.to_vec());
+        }
+        let (cu, cv) = (Collocation::new(&finer.ku)?, Collocation::new(&finer.kv)?);
+        let lines = |k: &KnotVector, at: &[f64]| at.iter().map(|&t| Line::at(k, t)).collect::<Vec<_>>();
+        let (lu, lv) = (lines(&self.ku, cu.points()), lines(&self.kv, cv.points()));
+        let value = |a: &Line, b: &Line| self.apply(&combine(a, b, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), x);
+        let mut out: Vec<DVec3> =
+            lu.iter().flat_map(|a| lv.iter().map(move |b| (a, b))).map(|(a, b)| value(a, b)).collect();
+        Collocation::poles_tensor(&cu, &cv, &mut out);
+        Ok(out)
+    }
+
     /// The value at (u, v) as a functional.
     pub fn value(&self, uv: DVec2) -> Row {
         self.combine(uv, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
@@ -83,6 +131,19 @@ impl Space {
         }
         sum
     }
+}
+
+/// Knots with the larger multiplicity of both.
+fn union(a: &KnotVector, b: &KnotVector) -> Result<KnotVector> {
+    let mut at = a.breaks_and_multiplicities();
+    for (t, m) in b.breaks_and_multiplicities() {
+        match at.iter_mut().find(|k| k.0 == t) {
+            Some(k) => k.1 = k.1.max(m),
+            None => at.push((t, m)),
+        }
+    }
+    at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Breaks { degree: a.degree(), at }.knots()
 }
 
 /// The same functional from prepared basis values.
@@ -269,7 +330,6 @@ pub fn displaced(space: &Space, poles: &[DVec3], coefficients: &[DVec3]) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ops::interpolate::Collocation;
 
     fn space(p: usize, q: usize) -> Space {
         Space {

@@ -1,8 +1,8 @@
 //! The coupled system: every patch's normal equations, tied together along the edges.
 //!
 //! Links ask for equal values (or equal cross-edge derivatives) on both sides of an edge. They are
-//! soft, then sharpened by augmented-Lagrangian steps (Nocedal and Wright, *Numerical
-//! Optimization*, ch. 17.3), which reuse the factor.
+//! soft: along a trimmed edge the two spline spaces share next to no functions, and links forced
+//! to zero would lock the patches and pull them off their nodes.
 
 use super::space::{NormalEquations, Row, Space};
 use crate::error::Result;
@@ -37,33 +37,21 @@ pub struct Link {
     pub weight: f64,
 }
 
-/// Solves for the coefficients of every block; `sharpen` augmented-Lagrangian steps follow.
+/// Solves for the coefficients of every block.
 ///
 /// # Errors
 /// [`crate::Error::Numerics`] where the system is singular.
-pub fn solve(blocks: &[Block], links: &[Link], unknowns: usize, sharpen: usize) -> Result<Vec<Vec<DVec3>>> {
-    let matrix = assemble(blocks, links, unknowns);
-    let factor = SparseCholesky::new(&matrix)?;
-    let mut base = vec![DVec3::ZERO; unknowns];
+pub fn solve(blocks: &[Block], links: &[Link], unknowns: usize) -> Result<Vec<Vec<DVec3>>> {
+    let factor = SparseCholesky::new(&assemble(blocks, links, unknowns))?;
+    let mut x = vec![DVec3::ZERO; unknowns];
     for block in blocks {
-        scatter(block, &block.equations.rhs, &mut base);
+        scatter(block, &block.equations.rhs, &mut x);
     }
-    let mut shifts = vec![DVec3::ZERO; links.len()];
-    let mut solution = Vec::new();
-    for round in 0..=sharpen {
-        let mut rhs = base.clone();
-        for (link, shift) in links.iter().zip(&shifts) {
-            add_link_target(blocks, link, *shift, &mut rhs);
-        }
-        factor.solve(&mut rhs)?;
-        solution = blocks.iter().map(|b| gather(b, &rhs)).collect();
-        if round < sharpen {
-            for (link, shift) in links.iter().zip(&mut shifts) {
-                *shift += jump(blocks, link, &solution);
-            }
-        }
+    for link in links {
+        add_link_target(blocks, link, &mut x);
     }
-    Ok(solution)
+    factor.solve(&mut x)?;
+    Ok(blocks.iter().map(|b| gather(b, &x)).collect())
 }
 
 /// What a link misses.
@@ -85,10 +73,10 @@ fn gather(block: &Block, x: &[DVec3]) -> Vec<DVec3> {
     known.map(|(&u, p)| if u == PRESCRIBED { *p } else { x[u as usize] }).collect()
 }
 
-/// Right-hand side of one link: prescribed parts and the multiplier's shift.
-fn add_link_target(blocks: &[Block], link: &Link, shift: DVec3, rhs: &mut [DVec3]) {
+/// Right-hand side of one link: its prescribed parts.
+fn add_link_target(blocks: &[Block], link: &Link, rhs: &mut [DVec3]) {
     let known = |s: &(usize, Row)| blocks[s.0].space.apply(&s.1, &blocks[s.0].prescribed);
-    let target = (known(&link.b) - known(&link.a) - shift) * link.weight;
+    let target = (known(&link.b) - known(&link.a)) * link.weight;
     for (side, sign) in [(&link.a, 1.0), (&link.b, -1.0)] {
         for_each_pole(&blocks[side.0], &side.1, |unknown, c| rhs[unknown] += target * (sign * c));
     }
@@ -233,13 +221,9 @@ mod tests {
         }
         let links = links(&a, &b);
         let blocks = [a, b];
-        let worst = |sharpen| {
-            let x = solve(&blocks, &links, 40, sharpen).unwrap();
-            links.iter().map(|l| jump(&blocks, l, &x).length()).fold(0.0, f64::max)
-        };
-        let (soft, sharp) = (worst(0), worst(2));
-        assert!(soft < 1e-3, "soft links leave {soft}");
-        assert!(sharp < 0.1 * soft, "sharpening left {sharp} of {soft}");
+        let x = solve(&blocks, &links, 40).unwrap();
+        let worst = links.iter().map(|l| jump(&blocks, l, &x).length()).fold(0.0, f64::max);
+        assert!(worst < 1e-3, "the links leave {worst} of 0.01");
     }
 
     #[test]
@@ -247,9 +231,9 @@ mod tests {
         let (a, b) = (block(0, false), block(0, true));
         let links = links(&a, &b);
         let blocks = [a, b];
-        let x = solve(&blocks, &links, 20, 1).unwrap();
+        let x = solve(&blocks, &links, 20).unwrap();
         let edge = blocks[0].space.apply(&links[3].a.1, &x[0]);
-        assert!((edge - DVec3::X).length() < 1e-6, "edge went to {edge}");
+        assert!((edge - DVec3::X).length() < 1e-4, "edge went to {edge}");
         assert!(x[1].iter().all(|p| *p == DVec3::X), "a prescribed coefficient moved");
     }
 }

@@ -98,6 +98,38 @@ impl NurbsSurface {
         if self.weights.is_some() { sum / total } else { sum }
     }
 
+    /// The point, `S_u` and `S_v` at (u, v).
+    pub fn first_derivatives(&self, u: f64, v: f64) -> [DVec3; 3] {
+        let (p, q) = (self.knots_u.degree(), self.knots_v.degree());
+        let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
+        let (mut nu, mut nv) = ([0.0; 2 * (MAX_DEGREE + 1)], [0.0; 2 * (MAX_DEGREE + 1)]);
+        self.knots_u.basis_derivatives(su, u, 1, &mut nu);
+        self.knots_v.basis_derivatives(sv, v, 1, &mut nv);
+        let columns = self.knots_v.len();
+        let (mut a, mut w) = ([DVec3::ZERO; 3], [0.0; 3]);
+        for i in 0..=p {
+            let row = (su - p + i) * columns + sv - q;
+            let (mut line, mut line_w) = ([DVec3::ZERO; 2], [0.0; 2]);
+            for j in 0..=q {
+                let weight = self.weights.as_ref().map_or(1.0, |w| w[row + j]);
+                let pole = self.poles[row + j] * weight;
+                for l in 0..2 {
+                    line[l] += pole * nv[l * (q + 1) + j];
+                    line_w[l] += weight * nv[l * (q + 1) + j];
+                }
+            }
+            for (k, l, f) in [(0, 0, nu[i]), (1, 0, nu[p + 1 + i]), (2, 1, nu[i])] {
+                a[k] += line[l] * f;
+                w[k] += line_w[l] * f;
+            }
+        }
+        if self.weights.is_none() {
+            return a;
+        }
+        let s = a[0] / w[0];
+        [s, (a[1] - s * w[1]) / w[0], (a[2] - s * w[2]) / w[0]]
+    }
+
     /// The point and all derivatives up to the second at (u, v) (A4.4).
     pub fn derivatives(&self, u: f64, v: f64) -> SurfaceDerivatives {
         let (p, q) = (self.knots_u.degree(), self.knots_v.degree());

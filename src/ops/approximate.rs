@@ -42,19 +42,35 @@ impl Breaks {
 
     /// Halves the marked spans (simple new knots).
     pub fn split(&mut self, marked: &[bool]) {
+        self.split_near(marked, &[]);
+    }
+
+    /// Halves the marked spans, at one of the ascending `preferred` parameters where one lies in
+    /// the middle third.
+    pub fn split_near(&mut self, marked: &[bool], preferred: &[f64]) {
         let mut out = Vec::with_capacity(2 * self.at.len());
         for (i, w) in self.at.windows(2).enumerate() {
             out.push(w[0]);
             if marked[i] {
-                out.push((0.5 * (w[0].0 + w[1].0), 1));
+                let (middle, reach) = (0.5 * (w[0].0 + w[1].0), (w[1].0 - w[0].0) / 6.0);
+                let after = preferred.partition_point(|&k| k < middle);
+                let near = preferred[after.saturating_sub(1)..preferred.len().min(after + 1)].iter();
+                let best = near.min_by(|a, b| (*a - middle).abs().total_cmp(&(*b - middle).abs()));
+                out.push((best.copied().filter(|k| (k - middle).abs() < reach).unwrap_or(middle), 1));
             }
         }
         out.extend(self.at.last());
         self.at = out;
     }
 
-    fn spans(&self) -> usize {
-        self.at.len() - 1
+    /// The spans that miss the tolerance, the worst of them where all would be too many.
+    fn worst(errors: &[f64], tolerance: f64, limit: usize) -> Vec<bool> {
+        let mut bad: Vec<usize> = (0..errors.len()).filter(|&i| errors[i] > tolerance).collect();
+        bad.sort_by(|&a, &b| errors[b].total_cmp(&errors[a]).then(a.cmp(&b)));
+        bad.truncate(limit.saturating_sub(errors.len()));
+        let mut marked = vec![false; errors.len()];
+        bad.into_iter().for_each(|i| marked[i] = true);
+        marked
     }
 
     fn samples(&self) -> Vec<f64> {
@@ -80,10 +96,10 @@ pub fn curve<P: Point + crate::linalg::banded::Rhs>(
         collocation.poles(&mut poles);
         let fitted = NurbsCurve::new(knots, poles, None)?;
         let errors: Vec<f64> = breaks.samples().iter().map(|&t| (fitted.point(t) - f(t)).length()).collect();
-        let marked: Vec<bool> =
-            errors.chunks(SAMPLES.len()).map(|e| e.iter().any(|&e| e > tolerance)).collect();
-        let bad = marked.iter().filter(|&&m| m).count();
-        if bad == 0 || breaks.spans() + bad > limit {
+        let worst: Vec<f64> =
+            errors.chunks(SAMPLES.len()).map(|e| e.iter().copied().fold(0.0, f64::max)).collect();
+        let marked = Breaks::worst(&worst, tolerance, limit);
+        if !marked.contains(&true) {
             return Ok((fitted, errors.into_iter().fold(0.0, f64::max)));
         }
         breaks.split(&marked);
@@ -119,12 +135,10 @@ pub fn surface(
         let error_u = worst(&u.samples(), &|a| cv.points().iter().map(|&b| error(a, b)).fold(0.0, f64::max));
         let error_v = worst(&v.samples(), &|b| cu.points().iter().map(|&a| error(a, b)).fold(0.0, f64::max));
         let largest = error_u.iter().chain(&error_v).copied().fold(0.0, f64::max);
-        let mark = |errors: &[f64], breaks: &Breaks| -> Vec<bool> {
-            let marked: Vec<bool> = errors.iter().map(|&e| e > 0.5 * tolerance).collect();
-            let bad = marked.iter().filter(|&&m| m).count();
-            if breaks.spans() + bad > limit { vec![false; marked.len()] } else { marked }
-        };
-        let (mu, mv) = (mark(&error_u, &u), mark(&error_v, &v));
+        let (mu, mv) = (
+            Breaks::worst(&error_u, 0.5 * tolerance, limit),
+            Breaks::worst(&error_v, 0.5 * tolerance, limit),
+        );
         if !mu.iter().chain(&mv).any(|&m| m) {
             return Ok((fitted, largest));
         }

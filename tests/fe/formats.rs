@@ -103,7 +103,7 @@ fn nodes_may_be_defined_twice_in_one_place_only() {
     let again = base.replacen(row, &format!("{row}\n{row}"), 1);
     assert_same(&read(&data("p5/base.frd.gz")), &read_text("same_twice.frd", &again));
     let moved = base.replacen(row, &format!("{row}\n{}", row.replace("E+0", "E+1")), 1);
-    assert_says(&refused("two_places.frd", moved), &["1 nodes have several different positions: 5"]);
+    assert_says(&refused("two_places.frd", moved), &["1 node with several different positions: 5"]);
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn huge_numbers_of_nodes_are_kept() {
     };
     let field = read_text("huge.frd", rewritten(huge));
     assert_eq!((field.ids[0], field.ids[2424]), (9_999_997_575, 9_999_999_999));
-    assert_says(&field.warnings.join("; "), &["refer to 2425 nodes that are not there", "not used"]);
+    assert_says(&field.warnings.join("; "), &["2425 nodes of the elements without coordinates", "not used"]);
     assert_eq!(field.surface_nodes, None);
 }
 
@@ -214,7 +214,7 @@ fn shells_and_unknown_elements_are_told() {
     let text =
         original("base.frd").replacen(" -1         1    6    0    1", " -1         1   13    0    1", 1);
     let field = read_text("unknown_element.frd", text);
-    assert_says(&field.warnings.join("; "), &["1 elements of type 13 are not understood"]);
+    assert_says(&field.warnings.join("; "), &["not understood: 1 of type 13"]);
 }
 
 #[test]
@@ -225,4 +225,33 @@ fn gzipped_results_are_told_by_content() {
     assert!(
         odd_name.source.compressed && !read_text("not_packed.frd.gz", original("base.frd")).source.compressed
     );
+}
+
+#[test]
+fn the_summary_tells_what_is_in_a_file() {
+    let field = read(&data("p5/base.frd.gz"));
+    let summary = serde_json::to_value(field.summary()).expect("plain values");
+    let count = |name: &str| summary[name].as_u64();
+    assert_eq!(
+        (count("nodes"), count("nodes_with_result"), count("surface_nodes")),
+        (Some(2425), Some(2425), Some(1434))
+    );
+    assert_eq!(summary["format"], "CalculiX results (.frd)");
+    assert_eq!(summary["compressed"], true);
+    assert_eq!(summary["unit_guess"], "mm");
+    assert_eq!(summary["elements"], serde_json::json!([{ "kind": "C3D10", "count": 1250 }]));
+    let blocks: Vec<&str> = summary["blocks"]
+        .as_array()
+        .expect("blocks")
+        .iter()
+        .filter_map(|block| block["name"].as_str())
+        .collect();
+    assert_eq!(blocks, ["nodes", "elements", "DISP"]);
+    assert_eq!(summary["steps"][0]["time"], 1.0);
+    assert_eq!(summary["bounds"][0][2], 0.0);
+    assert_eq!(summary["bounds"][1][2], 40.0);
+    let largest = &summary["largest_displacement"];
+    let node = largest["node"].as_i64().expect("a node") as usize - 1;
+    assert_eq!(largest["at"], serde_json::json!(field.points[node].to_array()));
+    assert_eq!(largest["value"].as_f64(), Some(field.displacements[node].length()));
 }

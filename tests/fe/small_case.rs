@@ -117,7 +117,7 @@ fn nodes_without_displacement_are_counted_and_marked() {
     assert_eq!(field.ids, base.ids);
     let missing = field.nodes_without_result();
     assert!(missing.len() > 500, "{}", missing.len());
-    assert_says(the_warning(&field), &[&format!("{} of 2425 nodes have no displacement", missing.len())]);
+    assert_says(the_warning(&field), &[&format!("{} of 2425 nodes without displacement", missing.len())]);
     for (k, id) in field.ids.iter().enumerate() {
         assert_eq!(missing.contains(id), field.points[k].z >= 26.0, "node {id}");
         assert!(missing.contains(id) || field.displacements[k] == base.displacements[k], "node {id}");
@@ -148,17 +148,23 @@ fn values_that_are_no_numbers_are_refused_with_their_nodes() {
     let message = refused("nan.frd", variant("nan"));
     assert_says(&message, &["6 nodes", "NaN", "7, 418, 829, 1240, 1651, 2062"]);
     let place = original("base.frd").replacen("-1.00000E+01-4.00000E+00", "    Infinity-4.00000E+00", 1);
-    assert_says(&refused("infinite.frd", place), &["1 nodes", "coordinates", ": 1"]);
+    assert_says(&refused("infinite.frd", place), &["1 node", "coordinates", ": 1"]);
 }
 
 #[test]
 fn truncated_results_are_refused_with_how_far_they_go() {
     let message = refused("truncated.frd", variant("truncated"));
-    assert_says(&message, &["truncated", "displacements (DISP) of step 1", "1614 of 2425"]);
+    assert_says(&message, &["truncated", "displacements (DISP) of step 1", "1614 of 2425 nodes"]);
     let base = original("base.frd");
     let cut = |line: usize| -> String { base.split_inclusive('\n').take(line).collect() };
-    assert_says(&refused("cut_nodes.frd", cut(1013)), &["truncated", "inside the nodes", "1000 of 2425"]);
-    assert_says(&refused("cut_elements.frd", cut(2442)), &["truncated", "inside the elements", "of 1250"]);
+    assert_says(
+        &refused("cut_nodes.frd", cut(1013)),
+        &["truncated", "inside the nodes", "1000 of 2425 nodes"],
+    );
+    assert_says(
+        &refused("cut_elements.frd", cut(2442)),
+        &["truncated", "inside the elements", "of 1250 elements"],
+    );
 }
 
 #[test]

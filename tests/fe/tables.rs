@@ -67,7 +67,7 @@ fn columns_are_found_by_name() {
 fn empty_displacements_are_missing_ones() {
     let field = read_text("missing.csv", "id;x;y;z;dx;dy;dz\n1;0;0;0;;;\n2;1;0;0;0,5;0;0\n");
     assert!(field.displacements[0].is_nan() && field.displacements[1] == DVec3::new(0.5, 0.0, 0.0));
-    assert_says(the_warning(&field), &["1 of 2 nodes have no displacement: 1"]);
+    assert_says(the_warning(&field), &["1 of 2 nodes without displacement: 1"]);
     assert_says(&refused("half_missing.csv", "1;0;0;0;;1;\n"), &["line 1", "column 5"]);
     assert_says(
         &refused("all_missing.csv", "id;x;y;z;dx;dy;dz\n1;0;0;0;;;\n"),
@@ -98,7 +98,7 @@ fn faults_are_named_with_their_line() {
         ("header.csv", "id,x,y,z,T\n1,2,3,4,5\n", &["line 1", "displacements", "found id, x, y, z, T"]),
         ("rows.csv", "id,x,y,z,dx,dy,dz\n# nothing\n", &["no rows"]),
         ("comments.csv", "# nothing\n", &["only comments"]),
-        ("nan.csv", "4,0,0,0,nan,0,0\n9,1,0,0,0,0,0\n", &["1 nodes have displacements", "NaN", ": 4"]),
+        ("nan.csv", "4,0,0,0,nan,0,0\n9,1,0,0,0,0,0\n", &["1 node with displacements", "NaN", ": 4"]),
         ("places.csv", "4,0,0,0,0,0,0\n4,1,0,0,0,0,0\n", &["several different positions: 4"]),
         ("thousands.csv", "id;x;y;z;dx;dy;dz\n1;1.000,5;0;0;0;0;0\n", &["line 2", "column 2", "1.000,5"]),
     ] {
@@ -137,7 +137,7 @@ fn arrays_are_checked_like_files() {
     for (points, values) in [(one, [DVec3::NAN]), ([DVec3::INFINITY], one)] {
         assert_says(
             &crate::refusal("here", Field::from_arrays("here", &[1], &points, &values)),
-            &["1 nodes", ": 1"],
+            &["1 node", ": 1"],
         );
     }
     assert_says(&crate::refusal("here", Field::from_arrays("here", &[], &[], &[])), &["no nodes"]);

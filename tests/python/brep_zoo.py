@@ -11,9 +11,8 @@ V = FreeCAD.Vector
 def placed(shape, position, axis, angle_deg):
     """A copy that shares the geometry and only carries a location."""
     copy = shape.copy(False)
-    copy.Placement = FreeCAD.Placement(
-        V(*position), FreeCAD.Rotation(V(*axis), angle_deg)
-    ).multiply(shape.Placement)
+    motion = FreeCAD.Placement(V(*position), FreeCAD.Rotation(V(*axis), angle_deg))
+    copy.Placement = motion.multiply(shape.Placement)
     return copy
 
 
@@ -50,18 +49,16 @@ def sheet(periodic_u=False, rational=False):
     for i in range(6):
         a = 2 * math.pi * i / 6
         ring = (5 * math.cos(a), 5 * math.sin(a)) if periodic_u else (2.0 * i, math.sin(a))
-        rows.append(
-            [
-                V(ring[0] * (1 + 0.1 * j), ring[1] * (1 + 0.1 * j), 2.0 * j + 0.3 * (i % 2))
-                for j in range(5)
-            ]
-        )
+        flare = [1 + 0.1 * j for j in range(5)]
+        heights = [2.0 * j + 0.3 * (i % 2) for j in range(5)]
+        rows.append([V(ring[0] * f, ring[1] * f, z) for f, z in zip(flare, heights)])
     weights = [[1 + 0.2 * ((i + j) % 3) * rational for j in range(5)] for i in range(6)]
     surface = Part.BSplineSurface()
     umults = [1] * 7 if periodic_u else [4, 1, 1, 4]
     uknots = [float(k) for k in range(len(umults))]
+    vmults, vknots = [4, 1, 4], [0.0, 0.5, 1.0]
     surface.buildFromPolesMultsKnots(
-        rows, umults, [4, 1, 4], uknots, [0.0, 0.5, 1.0], periodic_u, False, 3, 3, weights
+        rows, umults, vmults, uknots, vknots, periodic_u, False, 3, 3, weights
     )
     return surface
 
@@ -116,36 +113,25 @@ def rounded():
     yield "fillet_cylinder", cylinder.makeFillet(1, cylinder.Edges[:1])
     yield "chamfer_cylinder", cylinder.makeChamfer(0.7, cylinder.Edges[2:])
     cut = box.cut(Part.makeCylinder(2, 20, V(5, 4, -5)))
-    yield (
-        "fillet_hole",
-        cut.makeFillet(0.4, [e for e in cut.Edges if e.Curve.TypeId == "Part::GeomCircle"]),
-    )
+    rims = [e for e in cut.Edges if e.Curve.TypeId == "Part::GeomCircle"]
+    yield "fillet_hole", cut.makeFillet(0.4, rims)
     blade = Part.Face(profile()).extrude(V(0, 1, 10))
     yield "fillet_spline", blade.makeFillet(0.05, blade.Edges[-2:])
 
 
 def swept():
-    yield (
-        "loft_closed_smooth",
-        Part.makeLoft([blob(0), blob(4, 1.3, 0.5), blob(9, 0.8, 1.0)], True, False),
-    )
-    yield (
-        "loft_closed_ruled",
-        Part.makeLoft([blob(0), blob(4, 1.3, 0.5), blob(9, 0.8, 1.0)], True, True),
-    )
-    yield "loft_round_square", Part.makeLoft([Part.Wire(Part.makeCircle(3)), square(6, 5)], True)
-    yield (
-        "loft_to_point",
-        Part.makeLoft([Part.Wire(Part.makeCircle(3)), Part.Vertex(0, 0, 5)], True),
-    )
+    blobs = [blob(0), blob(4, 1.3, 0.5), blob(9, 0.8, 1.0)]
+    yield "loft_closed_smooth", Part.makeLoft(blobs, True, False)
+    yield "loft_closed_ruled", Part.makeLoft(blobs, True, True)
+    circle = Part.Wire(Part.makeCircle(3))
+    yield "loft_round_square", Part.makeLoft([circle, square(6, 5)], True)
+    yield "loft_to_point", Part.makeLoft([circle, Part.Vertex(0, 0, 5)], True)
     path = Part.Wire(spline([(0, 0, 0), (0, 2, 5), (3, 3, 9)]).toShape())
     yield "pipe_shell", path.makePipeShell([Part.Wire(Part.makeCircle(1))], True, True)
     yield "pipe", path.makePipe(Part.Face(Part.Wire(Part.makeCircle(0.5))))
     helix = Part.Wire(Part.makeHelix(3, 6, 5))
-    yield (
-        "helix_sweep",
-        helix.makePipeShell([Part.Wire(Part.makeCircle(0.4, V(5, 0, 0), V(0, 1, 0)))], True, True),
-    )
+    section = Part.Wire(Part.makeCircle(0.4, V(5, 0, 0), V(0, 1, 0)))
+    yield "helix_sweep", helix.makePipeShell([section], True, True)
     yield "ruled", Part.makeRuledSurface(wave().toShape(), wave(5).toShape())
     yield "filled", Part.makeFilledFace(Part.__sortEdges__(Part.makeBox(2, 3, 1).Faces[0].Edges))
     yield "revolution_spline", meridian().revolve(V(), V(0, 0, 1), 360)
@@ -155,11 +141,9 @@ def swept():
     yield "extrusion_spline", wave().toShape().extrude(V(1, 2, 3))
     yield "extrusion_profile", Part.Face(profile()).extrude(V(0.5, 0.2, 9))
     yield "extrusion_periodic", Part.Face(blob(0)).extrude(V(0, 0, 7))
-    yield (
-        "extrusion_ellipse",
-        Part.Face(Part.Wire(Part.Ellipse(V(), 5, 2).toShape())).extrude(V(0, 1, 4)),
-    )
-    yield "extrusion_arc", Part.Ellipse(V(), 5, 2).toShape(0.4, 3).extrude(V(0, 1, 4))
+    ellipse = Part.Ellipse(V(), 5, 2)
+    yield "extrusion_ellipse", Part.Face(Part.Wire(ellipse.toShape())).extrude(V(0, 1, 4))
+    yield "extrusion_arc", ellipse.toShape(0.4, 3).extrude(V(0, 1, 4))
     yield "extrusion_conics", conics().extrude(V(0.3, 0.1, 4))
 
 
@@ -192,10 +176,8 @@ def freeform():
     curve.setWeight(2, 3.0)
     yield "bezier_extruded", curve.toShape().extrude(V(0, 1, 5))
     yield "offset_curve", Part.OffsetCurve(wave(), 0.4, V(0, 0.1, 1)).toShape()
-    yield (
-        "offset_curve_extruded",
-        Part.OffsetCurve(wave(), 0.4, V(0, 0, 1)).toShape().extrude(V(0, 0.5, 5)),
-    )
+    offset = Part.OffsetCurve(wave(), 0.4, V(0, 0, 1)).toShape()
+    yield "offset_curve_extruded", offset.extrude(V(0, 0.5, 5))
     yield "offset_surface", Part.OffsetSurface(sheet(), 0.3).toShape()
     yield "offset_rational", Part.OffsetSurface(sheet(rational=True), -0.3).toShape()
     yield "offset_periodic", Part.OffsetSurface(sheet(periodic_u=True), 0.2).toShape()
@@ -215,10 +197,8 @@ def booleans():
     yield "common", box.common(ball)
     yield "cut_many", box.multiFuse([ball]).cut(rod).cut(Part.makeTorus(4, 1))
     yield "cone_sections", Part.makeCone(5, 0, 10).cut(Part.makeBox(20, 20, 20, V(1, -10, -5)))
-    yield (
-        "section",
-        Part.makeCone(5, 0, 10).section(Part.makePlane(20, 20, V(1, -10, -5), V(1, 0, 0.2))),
-    )
+    plane = Part.makePlane(20, 20, V(1, -10, -5), V(1, 0, 0.2))
+    yield "section", Part.makeCone(5, 0, 10).section(plane)
     pieces, _ = box.generalFuse([ball, rod])
     yield "general_fuse", pieces
     yield "two_shells", Part.makeBox(10, 10, 10).cut(Part.makeSphere(3, V(5, 5, 5)))
@@ -232,10 +212,8 @@ def arranged():
     moved = placed(cone, (10, 0, 0), (1, 1, 0), 40)
     yield "placed", moved
     yield "placed_again", placed(moved, (0, 5, 1), (0, 1, 0), 70)
-    yield (
-        "placed_offset",
-        placed(Part.OffsetSurface(sheet(), 0.3).toShape(), (1, 2, 3), (1, 2, 3), 100),
-    )
+    offset = Part.OffsetSurface(sheet(), 0.3).toShape()
+    yield "placed_offset", placed(offset, (1, 2, 3), (1, 2, 3), 100)
     copies = [placed(box, (3 * i, i, 0), (0, 0, 1), 20 * i) for i in range(4)]
     shared = Part.makeCompound([box, *copies])
     yield "shared", shared
@@ -248,11 +226,9 @@ def arranged():
     mirrored = revolved.mirror(V(1, 0, 0), V(1, 0.2, 0))
     yield "mirrored", mirrored
     yield "mirrored_placed", placed(mirrored, (1, 2, 3), (0, 1, 0), 45)
-    yield (
-        "mirrored_torus",
-        Part.makeTorus(6, 1.5, V(), V(0, 1, 1), -60, 120, 200).mirror(V(), V(0, 0, 1)),
-    )
-    yield "mirrored_offset", Part.OffsetSurface(sheet(), 0.3).toShape().mirror(V(), V(0, 1, 1))
+    torus = Part.makeTorus(6, 1.5, V(), V(0, 1, 1), -60, 120, 200)
+    yield "mirrored_torus", torus.mirror(V(), V(0, 0, 1))
+    yield "mirrored_offset", offset.mirror(V(), V(0, 1, 1))
     turned = Part.makeSphere(2)
     turned.reverse()
     yield "reversed", turned
@@ -263,10 +239,8 @@ def arranged():
     yield "open_shell", Part.makeShell(Part.makeBox(1, 2, 3).Faces[:4])
     pieces, _ = box.generalFuse([Part.makeBox(1, 2, 3, V(1, 0, 0))])
     yield "comp_solid", Part.CompSolid(pieces.Solids)
-    yield (
-        "mixed",
-        Part.makeCompound([box, Part.Vertex(9, 9, 9), wave().toShape(), Part.makeCircle(2)]),
-    )
+    loose = [Part.Vertex(9, 9, 9), wave().toShape(), Part.makeCircle(2)]
+    yield "mixed", Part.makeCompound([box, *loose])
     scaled = cone.transformGeometry(FreeCAD.Matrix(2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5, 0))
     yield "stretched", scaled
 

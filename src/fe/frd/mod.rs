@@ -17,6 +17,9 @@ use rows::Extent;
 /// Name of the displacements among the results.
 const DISPLACEMENTS: &str = "DISP";
 
+/// What messages call the block of elements.
+const ELEMENTS: &str = "the elements";
+
 /// What a results file holds, as far as it concerns a field.
 #[derive(Debug, Default)]
 pub(super) struct Results {
@@ -79,7 +82,7 @@ impl Reader<'_> {
         while let Some(line) = self.input.next_line()? {
             let (what, announced, extent) = match Record::of(line) {
                 Record::Nodes(block) => ("the nodes".to_string(), block.count, self.nodes(block)?),
-                Record::Elements(block) => ("the elements".to_string(), block.count, self.elements(block)?),
+                Record::Elements(block) => (ELEMENTS.to_string(), block.count, self.elements(block)?),
                 Record::Attribute(name) => self.values(name)?,
                 other => {
                     self.note(other);
@@ -211,7 +214,8 @@ impl Reader<'_> {
     /// The file ends inside a block: an error, unless the step asked for by number came whole.
     fn cut_off(&mut self, what: &str, announced: Option<usize>, read: usize) -> Result<()> {
         let of = announced.map_or(String::new(), |count| format!(" of {count}"));
-        let ends = format!("the file is truncated: it ends inside {what}, {read}{of} rows read");
+        let unit = if what == ELEMENTS { "elements" } else { "nodes" };
+        let ends = format!("the file is truncated: it ends inside {what}, {read}{of} {unit} read");
         if self.wanted.is_some_and(|wanted| wanted <= self.complete_steps) {
             self.ended = true;
             self.warn(format!("{ends}; step {} before it is complete", self.results.step));
@@ -232,7 +236,9 @@ impl Reader<'_> {
         self.check_found()?;
         let (strays, first) = self.strays;
         if strays > 0 {
-            self.warn(format!("{strays} lines were not understood and skipped, the first is line {first}"));
+            self.warn(format!(
+                "lines that are not understood and skipped: {strays}, the first is line {first}"
+            ));
         }
         if !self.ended {
             self.warn("the file lacks its last line (9999): perhaps it is not complete".into());

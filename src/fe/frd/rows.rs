@@ -93,7 +93,7 @@ fn vector_row(line: &[u8], width: usize, components: usize) -> Option<(i64, DVec
     let id = scan::whole_integer(line.get(3..3 + width)?)?;
     let values = &line[3 + width..];
     // One digit stands before the decimal mark: more of them means that the number ran over.
-    let overrun = values.iter().take(2).all(u8::is_ascii_digit) && values.len() % 12 != 0;
+    let overrun = values.iter().take(2).all(u8::is_ascii_digit) && !values.len().is_multiple_of(12);
     let (x, rest) = scan::number(values, true)?;
     let (y, rest) = scan::number(rest, true)?;
     let (z, rest) = scan::number(rest, true)?;

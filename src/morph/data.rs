@@ -1,0 +1,85 @@
+//! What each patch has to follow: displacements at feet, with the local node spacing.
+
+use super::associate::Match;
+use super::hot::Hot;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use rstar::{RTree, primitives::GeomWithData};
+
+/// Which neighbour's distance stands for the spacing: in a triangular net six are equally near.
+const NEIGHBOUR: usize = 3;
+
+/// One datum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// Where on the patch.
+    pub uv: DVec2,
+    /// The displacement wanted there, mm.
+    pub target: DVec3,
+    /// Distance between nodes around here, mm.
+    pub spacing: f64,
+    /// Weight of the square; 1 at first.
+    pub weight: f64,
+}
+
+/// The data of one patch.
+#[derive(Debug, Clone, Default)]
+pub struct PatchData {
+    /// Data, in the order of the matches.
+    pub data: Vec<Datum>,
+    /// Median spacing, mm; 0 without data.
+    pub spacing: f64,
+}
+
+/// Distance from each match's foot to its third neighbour on the same face, mm (to the farthest
+/// one where there are fewer).
+pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
+    let per_face: Vec<Vec<f64>> = (0..hot.faces.len() as u32)
+        .into_par_iter()
+        .map(|face| {
+            let range =
+                matches.partition_point(|m| m.face < face)..matches.partition_point(|m| m.face <= face);
+            let own = &matches[range];
+            let points: Vec<_> = own.iter().map(|m| GeomWithData::new(m.foot.point.to_array(), ())).collect();
+            let tree = RTree::bulk_load(points);
+            let nth = |m: &Match| {
+                let mut neighbours = tree.nearest_neighbor_iter_with_distance_2(&m.foot.point.to_array());
+                // Nodes that coincide tell nothing; the first is the node itself.
+                let mut last = 0.0;
+                for _ in 0..=NEIGHBOUR {
+                    last = neighbours.next().map_or(last, |n| n.1);
+                }
+                last.sqrt()
+            };
+            own.iter().map(nth).collect()
+        })
+        .collect();
+    per_face.concat()
+}
+
+/// Collects the data of every patch; `target` gives the displacement wanted at a match, or none
+/// where the match is not to be used.
+pub fn collect(
+    hot: &Hot,
+    matches: &[Match],
+    spacings: &[f64],
+    target: impl Fn(&Match) -> Option<DVec3>,
+) -> Vec<PatchData> {
+    let mut out = vec![PatchData::default(); hot.patches.len()];
+    for (m, &spacing) in matches.iter().zip(spacings) {
+        if let Some(target) = target(m) {
+            out[hot.faces[m.face as usize].patch].data.push(Datum {
+                uv: m.foot.uv,
+                target,
+                spacing,
+                weight: 1.0,
+            });
+        }
+    }
+    for patch in &mut out {
+        let mut sorted: Vec<f64> = patch.data.iter().map(|d| d.spacing).filter(|s| *s > 0.0).collect();
+        sorted.sort_by(f64::total_cmp);
+        patch.spacing = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    }
+    out
+}

@@ -1,0 +1,278 @@
+//! The fit of the whole solid: each patch on its own to find its knots, then all together.
+
+use super::data::PatchData;
+use super::hot::Hot;
+use super::links::{self, JointLinks, Tie};
+use super::options::Progress;
+use super::space::Space;
+use super::surface_fit::{self, Cells, Marks, SHORTEST_AT_EDGE};
+use super::system::{self, Block, PRESCRIBED};
+use crate::error::{Error, Result};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Rounds of the coupled solve.
+const ROUNDS: usize = 4;
+/// A jump along an edge that asks for finer knots, mm.
+const JUMP_MM: f64 = 1e-5;
+/// Nodes for each pole at least.
+const NODES_PER_POLE: usize = 3;
+/// Growth of a patch whose poles are the user's own.
+const OWN_GROWTH: usize = 4;
+
+/// The fitted displacement.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Space of each patch.
+    pub spaces: Vec<Space>,
+    /// Its coefficients.
+    pub coefficients: Vec<Vec<DVec3>>,
+}
+
+impl Fit {
+    /// No displacement, on the hot knots.
+    pub fn nothing(hot: &Hot) -> Self {
+        let spaces: Vec<Space> = hot.patches.iter().map(|p| p.space.clone()).collect();
+        let coefficients = spaces.iter().map(|s| vec![DVec3::ZERO; s.len()]).collect();
+        Self { spaces, coefficients }
+    }
+}
+
+/// What the fit is asked for.
+pub struct Problem<'a> {
+    /// The solid.
+    pub hot: &'a Hot,
+    /// Data of each patch.
+    pub data: &'a [PatchData],
+    /// How each joint is tied.
+    pub ties: &'a [Tie],
+    /// Prescribed displacement coefficients of patches that must not move freely, over the knots
+    /// of the patches themselves.
+    pub prescribed: &'a [Option<Vec<DVec3>>],
+    /// Parameters of each patch, along u and v, where its displacement may have a kink.
+    pub kinks: &'a [[Vec<f64>; 2]],
+}
+
+/// Fits the displacement.
+///
+/// # Errors
+/// [`Error::Numerics`] where the equations cannot be solved, [`Error::Cancelled`].
+pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
+    let hot = problem.hot;
+    let mut spaces: Vec<Space> = hot
+        .patches
+        .par_iter()
+        .enumerate()
+        .map(|(p, patch)| match problem.prescribed[p] {
+            Some(_) => Ok(Space { ku: patch.hot.knots_u().clone(), kv: patch.hot.knots_v().clone() }),
+            None => {
+                let start = patch.space.with_kinks(&problem.kinks[p])?;
+                surface_fit::fit_alone(start, &patch.hot, &problem.data[p], budget(problem, p))
+            }
+        })
+        .collect::<Result<_>>()?;
+    let mut coefficients = Vec::new();
+    for round in 0..ROUNDS {
+        if !progress("fitting all faces together", round as f64 / ROUNDS as f64) {
+            return Err(Error::Cancelled);
+        }
+        let coupled = Coupled::solve(problem, &spaces)?;
+        let finer = if round + 1 < ROUNDS { coupled.refine(problem, &spaces)? } else { None };
+        coefficients = coupled.coefficients;
+        match finer {
+            Some(finer) => spaces = finer,
+            None => break,
+        }
+    }
+    Ok(Fit { spaces, coefficients })
+}
+
+/// Cells that the displacement of a patch may have.
+fn budget(problem: &Problem<'_>, patch: usize) -> usize {
+    let p = &problem.hot.patches[patch];
+    let nodes = problem.data[patch].data.len() / NODES_PER_POLE;
+    if p.own_poles { nodes.min(OWN_GROWTH * p.space.cells()) } else { nodes }
+}
+
+struct Coupled {
+    coefficients: Vec<Vec<DVec3>>,
+    blocks: Vec<Block>,
+    cells: Vec<Cells>,
+    links: Vec<JointLinks>,
+}
+
+impl Coupled {
+    fn solve(problem: &Problem<'_>, spaces: &[Space]) -> Result<Self> {
+        let hot = problem.hot;
+        let (unknowns, count) = number(hot, spaces, problem.prescribed);
+        let (blocks, cells): (Vec<Block>, Vec<Cells>) = spaces
+            .par_iter()
+            .zip(unknowns)
+            .enumerate()
+            .map(|(p, (space, unknowns))| {
+                let cells = Cells::new(space, &problem.data[p]);
+                let equations = surface_fit::equations(space, &hot.patches[p].hot, &problem.data[p], &cells);
+                let prescribed =
+                    problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.len()]);
+                (Block { space: space.clone(), equations, unknowns, prescribed }, cells)
+            })
+            .unzip();
+        let links: Vec<JointLinks> = hot
+            .joints
+            .par_iter()
+            .zip(problem.ties)
+            .map(|(joint, &tie)| links::links(hot, joint, spaces, tie, joint_spacing(problem, joint)))
+            .collect();
+        let all: Vec<_> = links.iter().flat_map(|l| l.position.iter().chain(&l.tangent)).cloned().collect();
+        let coefficients = system::solve(&blocks, &all, count)?;
+        Ok(Self { coefficients, blocks, cells, links })
+    }
+
+    /// Spaces with finer knots where edges gape or nodes are missed; none if nothing is asked.
+    fn refine(&self, problem: &Problem<'_>, spaces: &[Space]) -> Result<Option<Vec<Space>>> {
+        let hot = problem.hot;
+        let mut marks: Vec<Marks> = self
+            .cells
+            .par_iter()
+            .enumerate()
+            .map(|(p, cells)| {
+                let residuals =
+                    surface_fit::residuals(&spaces[p], &problem.data[p], cells, &self.coefficients[p]);
+                if spaces[p].cells() >= 3 * budget(problem, p) {
+                    return Marks::new(cells);
+                }
+                let mut at_edge = vec![false; cells.count.len()];
+                for (joint, links) in hot.joints.iter().zip(&self.links) {
+                    for side in joint.sides.iter().filter(|s| s.patch == p) {
+                        for &t in &links.parameters {
+                            at_edge[cells.index(side.pcurve.point(t))] = true;
+                        }
+                    }
+                }
+                surface_fit::mark(cells, &hot.patches[p].hot, &residuals, |k| {
+                    if at_edge[k] { SHORTEST_AT_EDGE } else { 2.0 }
+                })
+            })
+            .collect();
+        for (joint, links) in hot.joints.iter().zip(&self.links) {
+            self.mark_gaping(problem, joint, links, &mut marks);
+        }
+        let mut asked = false;
+        let mut finer = Vec::with_capacity(spaces.len());
+        for (p, (space, marks)) in spaces.iter().zip(&marks).enumerate() {
+            let wanted = marks.count() > 0 && problem.prescribed[p].is_none();
+            asked |= wanted;
+            finer.push(if wanted {
+                marks.refine(space, &problem.hot.patches[p].hot)?
+            } else {
+                space.clone()
+            });
+        }
+        Ok(asked.then_some(finer))
+    }
+
+    /// Asks for finer knots on the coarser side of every sample at which a joint gapes.
+    fn mark_gaping(
+        &self,
+        problem: &Problem<'_>,
+        joint: &super::hot::Joint,
+        links: &JointLinks,
+        marks: &mut [Marks],
+    ) {
+        for (link, &t) in links.position.iter().zip(&links.parameters) {
+            if system::jump(&self.blocks, link, &self.coefficients).length() < JUMP_MM {
+                continue;
+            }
+            let side = |s: usize| {
+                let side = &joint.sides[s];
+                let (p, hot) = (side.patch, &problem.hot.patches[side.patch].hot);
+                let k = self.cells[p].index(side.pcurve.point(t));
+                let [a, b] = self.cells[p].sides(k, hot);
+                (p, k, a.max(b))
+            };
+            let (a, b) = (side(0), side(1));
+            for (p, k, size) in [a, b] {
+                if size > 0.7 * a.2.max(b.2) {
+                    let shortest = SHORTEST_AT_EDGE * self.cells[p].spacing[k];
+                    marks[p].halve_longer(&self.cells[p], &problem.hot.patches[p].hot, k, shortest);
+                }
+            }
+        }
+    }
+}
+
+/// Node spacing along a joint: the finer of its sides, mm.
+fn joint_spacing(problem: &Problem<'_>, joint: &super::hot::Joint) -> f64 {
+    let spacing = |s: &super::hot::Side| Some(problem.data[s.patch].spacing).filter(|s| *s > 0.0);
+    joint.sides.iter().filter_map(spacing).reduce(f64::min).unwrap_or(1.0)
+}
+
+/// Numbers the unknowns. Coefficients along a closed or degenerate side of a patch are one
+/// unknown, so that what was one point stays one.
+fn number(hot: &Hot, spaces: &[Space], prescribed: &[Option<Vec<DVec3>>]) -> (Vec<Vec<u32>>, usize) {
+    let mut next = 0u32;
+    let mut all = Vec::with_capacity(spaces.len());
+    for (p, space) in spaces.iter().enumerate() {
+        if prescribed[p].is_some() {
+            all.push(vec![PRESCRIBED; space.len()]);
+            continue;
+        }
+        let ties = PatchTies::new(hot, p);
+        let mut unknowns = vec![PRESCRIBED; space.len()];
+        for k in 0..space.len() {
+            let first = ties.first_of(k, space);
+            unknowns[k] = if first == k { next } else { unknowns[first] };
+            next += u32::from(first == k);
+        }
+        all.push(unknowns);
+    }
+    (all, next as usize)
+}
+
+/// Which sides of a patch coincide in space.
+struct PatchTies {
+    /// The first and last row (u), or column (v), are the same curve.
+    closed: [bool; 2],
+    /// The side at the first / last u, first / last v, is a single point.
+    point: [bool; 4],
+}
+
+impl PatchTies {
+    fn new(hot: &Hot, patch: usize) -> Self {
+        let surface = &hot.patches[patch].hot;
+        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+        let fractions = (0..=8).map(|k| k as f64 / 8.0);
+        let us: Vec<f64> = fractions.clone().map(|s| u0 + s * (u1 - u0)).collect();
+        let vs: Vec<f64> = fractions.map(|s| v0 + s * (v1 - v0)).collect();
+        let same = |a: DVec2, b: DVec2| (surface.point(a.x, a.y) - surface.point(b.x, b.y)).length() < 1e-5;
+        let seams: Vec<_> = hot
+            .joints
+            .iter()
+            .filter(|j| j.sides.len() == 2 && j.sides.iter().all(|s| s.patch == patch))
+            .collect();
+        let closed_u = !seams.is_empty() && vs.iter().all(|&v| same(DVec2::new(u0, v), DVec2::new(u1, v)));
+        let closed_v = !seams.is_empty() && us.iter().all(|&u| same(DVec2::new(u, v0), DVec2::new(u, v1)));
+        let point_u = |u: f64| vs.iter().all(|&v| same(DVec2::new(u, v), DVec2::new(u, v0)));
+        let point_v = |v: f64| us.iter().all(|&u| same(DVec2::new(u, v), DVec2::new(u0, v)));
+        Self { closed: [closed_u, closed_v], point: [point_u(u0), point_u(u1), point_v(v0), point_v(v1)] }
+    }
+
+    /// The coefficient that stands for coefficient `k`.
+    fn first_of(&self, k: usize, space: &Space) -> usize {
+        let (rows, columns) = (space.ku.len(), space.kv.len());
+        let (mut i, mut j) = (k / columns, k % columns);
+        if self.closed[0] && i == rows - 1 {
+            i = 0;
+        }
+        if self.closed[1] && j == columns - 1 {
+            j = 0;
+        }
+        if (self.point[0] && i == 0) || (self.point[1] && i == rows - 1) {
+            j = 0;
+        }
+        if (self.point[2] && j == 0) || (self.point[3] && j == columns - 1) {
+            i = 0;
+        }
+        i * columns + j
+    }
+}
