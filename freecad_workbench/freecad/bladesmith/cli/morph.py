@@ -12,6 +12,7 @@ from .. import __version__
 from ..model import FIELD_UNITS_MM, MorphOptions, Report
 from ..native import BladesmithError, Field, InputError, Morphed, Part, SetupError
 from ..occ import judge, step
+from . import interruption
 from .faces import selected
 from .names_file import names_path, names_text
 from .outputs import Outputs, check_target
@@ -105,9 +106,11 @@ def _morph(
     read = time.monotonic() - started
 
     def share(stage: str, fraction: float) -> bool:
-        return progress(stage, _READ_DONE + (_CORE_DONE - _READ_DONE) * fraction)
+        progress(stage, _READ_DONE + (_CORE_DONE - _READ_DONE) * fraction)
+        return not interruption.asked()
 
-    morphed = Morphed.morph(core_part, field, settings.settings(), share)
+    with interruption.deferred():
+        morphed = Morphed.morph(core_part, field, settings.settings(), share)
     report = Report(morphed.report())
     report.seconds["read"] = read
     cold = step.from_brep(morphed.part().write())
