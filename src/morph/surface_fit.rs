@@ -10,7 +10,7 @@ use glam::DVec3;
 
 /// Cut-off of the regularisation in node spacings: λ = c⁴h². From measurements on real blades:
 /// below it the error between nodes explodes while the residual still falls.
-const CUT_OFF: f64 = 0.15;
+const CUT_OFF: f64 = 0.2;
 /// Weight that keeps coefficients without any evidence at zero.
 const RIDGE: f64 = 1e-10;
 /// Residual at which a cell is left alone, mm.
