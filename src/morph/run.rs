@@ -41,6 +41,7 @@ const HELD: f64 = 1e-6;
 /// # Errors
 /// See [`Error`]; nothing is returned that does not hold together.
 pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
+    options.check()?;
     let start = Instant::now();
     let mut seconds = Seconds::default();
     let mut warnings = field.warnings.clone();
