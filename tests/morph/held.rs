@@ -29,7 +29,9 @@ fn displaced(brep: &Brep) -> Field {
 
 #[test]
 fn fixed_faces_do_not_move_and_the_solid_stays_closed() {
-    for (name, fixed) in [("cylinder", vec![2]), ("filleted", vec![1, 24]), ("bar", vec![5]), ("drop", vec![1])] {
+    for (name, fixed) in
+        [("cylinder", vec![2]), ("filleted", vec![1, 24]), ("bar", vec![5]), ("drop", vec![1])]
+    {
         let brep = solid(name);
         let options = Options { fixed_faces: fixed.clone(), ..Options::default() };
         let done = run(&brep, &displaced(&brep), &options);
@@ -109,8 +111,10 @@ fn a_face_that_the_field_holds_stays_and_is_named() {
 /// The surface on which the bar stands.
 fn bottom(brep: &Brep) -> usize {
     let hot = hot(brep);
-    let low = |f: &usize| inside(&hot, *f, 3).iter().all(|uv| {
-        brep.surfaces[hot.topology.faces[*f].surface].point(uv.x, uv.y).z.abs() < 1e-9
-    });
+    let low = |f: &usize| {
+        inside(&hot, *f, 3)
+            .iter()
+            .all(|uv| brep.surfaces[hot.topology.faces[*f].surface].point(uv.x, uv.y).z.abs() < 1e-9)
+    };
     hot.topology.faces[(0..6).find(low).expect("a bottom")].surface
 }

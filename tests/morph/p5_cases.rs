@@ -106,7 +106,10 @@ fn probes_of_base_sphere_and_coarse_are_reproduced() {
         let brep = solid(if name == "coarse" { "base" } else { name });
         let done = run(&brep, &precise(name), &Options { factor: -1.0, holdout: true, ..Options::default() });
         let (mean, max) = missed(name, &brep, &done.brep, -1.0);
-        println!("{name}: probes {mean:e} {max:e} dev {:?} hold {:?} folded {} {:#?}", done.report.deviation_mm, done.report.holdout_mm, done.report.solid.folded, done.report.warnings);
+        println!(
+            "{name}: probes {mean:e} {max:e} dev {:?} hold {:?} folded {} {:#?}",
+            done.report.deviation_mm, done.report.holdout_mm, done.report.solid.folded, done.report.warnings
+        );
         println!("{:?}", done.report.edges.iter().map(|e| (e.gap_mm.after, e.held)).collect::<Vec<_>>());
     }
 }

@@ -86,7 +86,10 @@ fn very_few_nodes_give_a_closed_solid() {
             let verdict = judge(&brep, &done.brep, u);
             println!("{name} {count} {verdict:?}");
             assert_eq!(done.report.solid.folded, 0, "{name}, {count} nodes");
-            assert!(verdict.beyond_tolerance <= 0.0 && verdict.gap < 1e-2, "{name}, {count} nodes: {verdict:?}");
+            assert!(
+                verdict.beyond_tolerance <= 0.0 && verdict.gap < 1e-2,
+                "{name}, {count} nodes: {verdict:?}"
+            );
         }
     }
 }

@@ -11,17 +11,17 @@ use glam::DVec3;
 
 type Displacement = fn(DVec3) -> DVec3;
 
-const FIELDS: [(&str, Displacement); 3] = [
-    ("bending", |x| bend(x, 0.004)),
-    ("twist", |x| twist(x, 0.008)),
-    ("heat", |x| heat(x, 2e-5)),
-];
+const FIELDS: [(&str, Displacement); 3] =
+    [("bending", |x| bend(x, 0.004)), ("twist", |x| twist(x, 0.008)), ("heat", |x| heat(x, 2e-5))];
 
 fn morphed(name: &str, brep: &Brep, h: f64, u: Displacement) -> (Brep, Verdict) {
     let done = run(brep, &field(nodes(brep, h, |_| true), u), &Options::default());
     let verdict = judge(brep, &done.brep, u);
     let report = &done.report;
-    println!("{name} h {h} nodes {} {:?} {:?} folded {}", report.input.nodes, verdict, report.deviation_mm, report.solid.folded);
+    println!(
+        "{name} h {h} nodes {} {:?} {:?} folded {}",
+        report.input.nodes, verdict, report.deviation_mm, report.solid.folded
+    );
     (done.brep, verdict)
 }
 
