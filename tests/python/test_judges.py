@@ -120,7 +120,7 @@ class Tessellation(unittest.TestCase):
 
     def test_the_bar_with_a_ball(self):
         done = morph(packed("sphere.step"), packed("sphere.frd"))
-        self.assert_watertight(done, (1e-2, 3e-3, 6e-4), 2e-4)
+        self.assert_watertight(done, (1e-3, 5e-4, 2.5e-4), 6e-4)
 
     def test_the_blade(self):
         self.assert_watertight(blade(), (1e-2, 5e-4), 6e-4)
