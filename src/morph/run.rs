@@ -97,6 +97,7 @@ pub struct Task<'a> {
     kinks: Vec<[Vec<f64>; 2]>,
     /// Angles along the joints of the input, degrees.
     pub hot_angles_deg: Vec<f64>,
+    tolerance_mm: f64,
     /// Faces that the field holds still.
     pub held: Vec<bool>,
     /// Faces that the user holds still.
@@ -145,6 +146,7 @@ impl<'a> Task<'a> {
             ties,
             kinks: kinks(hot, &held),
             hot_angles_deg,
+            tolerance_mm: options.tolerance_mm,
             held,
             fixed,
         })
@@ -169,6 +171,7 @@ impl<'a> Task<'a> {
         let problem = Problem {
             hot: self.hot,
             data: &data,
+            tolerance_mm: self.tolerance_mm,
             affine: &self.local,
             ties: &self.ties,
             prescribed: &self.prescribed,
