@@ -189,8 +189,10 @@ fn warn(
         ));
     }
     let faces = &outcome.selected.hot.faces;
-    let held: Vec<String> =
-        (0..faces.len()).filter(|f| outcome.task.held[*f]).map(|f| face_name(options, f)).collect();
+    let held: Vec<String> = (0..faces.len())
+        .filter(|f| outcome.task.held[*f] && !outcome.task.fixed[*f])
+        .map(|f| face_name(options, f))
+        .collect();
     if !held.is_empty() {
         warnings.push(format!(
             "the field holds {} still: the gradient jumps at their edges, and joints that were tangent \
