@@ -23,7 +23,8 @@ fn one_thread_two_threads_and_a_second_run_agree() {
         let options = Options { holdout: true, ..Options::default() };
         let with = |threads: usize| pool(threads).install(|| timeless(&run(&brep, &field, &options)));
         let (text, nodes, report) = with(1);
-        for (what, other) in [("two threads", with(2)), ("three threads", with(3)), ("a second run", with(2))] {
+        for (what, other) in [("two threads", with(2)), ("three threads", with(3)), ("a second run", with(2))]
+        {
             assert!(other.0 == text, "{name}, {what}: another B-rep");
             assert!(other.1 == nodes, "{name}, {what}: other node results");
             assert_eq!(other.2, report, "{name}, {what}");
