@@ -11,6 +11,7 @@ use super::select::Selected;
 use super::surface_fit::Cells;
 use super::{NodeResult, data::PatchData};
 use crate::brep::Brep;
+use crate::error::Result;
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
 
@@ -40,13 +41,16 @@ pub fn face_name(options: &Options, face: usize) -> String {
 
 /// Measures the outcome. `holdout` gives, by match, what the second fit missed (NaN where the
 /// node was used).
+///
+/// # Errors
+/// As [`Task::before`].
 pub fn summarise(
     outcome: &Outcome<'_>,
     field: &Field,
     options: &Options,
     holdout: Option<&[f64]>,
     mut warnings: Vec<String>,
-) -> (Report, Vec<NodeResult>) {
+) -> Result<(Report, Vec<NodeResult>)> {
     let Selected { brep, hot, nodes, association, .. } = outcome.selected;
     let matches = &association.matches[..];
     let figures = measure::at_nodes(hot, brep, outcome.cold, matches, &nodes.displacements);
@@ -59,10 +63,11 @@ pub fn summarise(
         &outcome.task.hot_angles_deg,
         &outcome.task.held,
     );
-    let before = mass(hot, &hot.patches.iter().map(|p| p.hot.clone()).collect::<Vec<_>>());
+    let before = mass(hot, &outcome.task.before()?);
     let after = mass(hot, outcome.cold);
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
     warn(outcome, options, &figures, folded, &mut warnings);
+    warnings.extend(empty_spans(&faces));
     let results = matches.iter().zip(&figures).map(|(m, f)| NodeResult {
         id: nodes.ids[m.node as usize],
         face: m.face + 1,
@@ -88,7 +93,7 @@ pub fn summarise(
         warnings,
         seconds: Seconds::default(),
     };
-    (report, results.collect())
+    Ok((report, results.collect()))
 }
 
 fn solid(outcome: &Outcome<'_>, before: &Mass, after: &Mass, folded: usize) -> SolidReport {
@@ -147,6 +152,20 @@ fn faces(
 fn inserted(before: &NurbsSurface, after: &NurbsSurface) -> usize {
     let knots = |s: &NurbsSurface| s.knots_u().flat().len() + s.knots_v().flat().len();
     knots(after).saturating_sub(knots(before))
+}
+
+/// Says where most spans hold no node: there the mesh is coarser than the net of poles.
+fn empty_spans(faces: &[FaceReport]) -> Option<String> {
+    let sparse = || faces.iter().filter(|f| 2 * f.spans_filled > f.spans);
+    let (empty, all) = sparse().fold((0, 0), |(e, a), f| (e + f.spans_filled, a + f.spans));
+    let names: Vec<&str> = sparse().take(10).map(|f| f.name.as_str()).collect();
+    let more = if sparse().count() > names.len() { ", …" } else { "" };
+    (empty > 0).then(|| {
+        let names = names.join(", ");
+        format!(
+            "empty knot spans: {empty} of {all} on {names}{more}: their poles follow the regularisation alone"
+        )
+    })
 }
 
 /// Spans whose middle lies on the face or that hold a node of it, and how many of them hold none.

@@ -98,13 +98,15 @@ fn angle_deg(brep: &Brep, hot: &Hot, joint: &Joint) -> f64 {
     let [a, b] = &joint.sides[..] else { return 0.0 };
     let normal = |side: &bladesmith::morph::hot::Side, t: f64| {
         let uv = side.pcurve.point(t);
-        let n = brep.surfaces[surface(hot, side.face)].derivatives(uv.x, uv.y).normal();
+        let d = brep.surfaces[surface(hot, side.face)].derivatives(uv.x, uv.y);
+        let pole = d.normal().length() < 1e-9 * (d.u.length_squared() + d.v.length_squared());
+        let n = if pole { DVec3::ZERO } else { d.normal() };
         if hot.faces[side.face].reversed { -n } else { n }
     };
     let at = |k: u32| {
         let t = joint.parameter(f64::from(k) / 150.0);
         let (x, y) = (normal(a, t), normal(b, t));
-        let vanishes = x.length() < 1e-9 || y.length() < 1e-9;
+        let vanishes = x == DVec3::ZERO || y == DVec3::ZERO;
         if vanishes { 0.0 } else { x.cross(y).length().atan2(x.dot(y)).to_degrees() }
     };
     (0..=150).map(at).fold(0.0, f64::max)

@@ -1,16 +1,17 @@
 //! The twisted bar and the half ball: every row of the list of awkward inputs.
 
 use crate::judge::judge;
-use crate::p5::{folder, original, variant};
+use crate::p5::{VARIANTS, folder, original, variant};
 use crate::solids::{hot, part};
 use crate::{assert_says, assert_warns, refusal, run};
 use bladesmith::brep::Brep;
 use bladesmith::fe::{self, Field, ReadOptions};
 use bladesmith::morph::hot::Hot;
-use bladesmith::morph::{Morphed, Options};
+use bladesmith::morph::{Morphed, Options, morph};
 use bladesmith::ops::closest::foot;
 use glam::{DVec2, DVec3};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A field with the full-precision coordinates of its deck.
 fn precise(name: &str) -> Field {
@@ -20,12 +21,17 @@ fn precise(name: &str) -> Field {
 }
 
 /// A variant of the base's results, read from a file.
-fn read_step(name: &str, step: Option<usize>) -> Field {
+fn try_read(name: &str, step: Option<usize>) -> bladesmith::Result<Field> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("morph");
     std::fs::create_dir_all(&folder).expect("a folder for test files");
-    let path = folder.join(format!("{name}-{}.frd", step.unwrap_or(0)));
+    static WRITTEN: AtomicUsize = AtomicUsize::new(0);
+    let path = folder.join(format!("{name}-{}.frd", WRITTEN.fetch_add(1, Ordering::Relaxed)));
     std::fs::write(&path, variant(name)).expect("room for the file");
-    fe::read(&path, &ReadOptions { mesh: None, step }).unwrap_or_else(|error| panic!("{error}"))
+    fe::read(&path, &ReadOptions { mesh: None, step })
+}
+
+fn read_step(name: &str, step: Option<usize>) -> Field {
+    try_read(name, step).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn read(name: &str) -> Field {
@@ -49,7 +55,8 @@ fn nearest(hot: &Hot, p: DVec3) -> (usize, DVec2) {
     let on_face = |face: usize| {
         let (f, surface) = (&hot.faces[face], &hot.patches[hot.faces[face].patch].hot);
         let (low, size) = (f.trim.low(), f.trim.high() - f.trim.low());
-        let starts = (0..900).map(|k| low + size * DVec2::new(f64::from(k / 30), f64::from(k % 30)) / 29.0);
+        let starts =
+            (0..900).map(|k| low + size * (DVec2::new(f64::from(k / 30), f64::from(k % 30)) + 0.5) / 30.0);
         let far = |uv: &DVec2| (surface.point(uv.x, uv.y) - p).length();
         let start = starts.min_by(|a, b| far(a).total_cmp(&far(b))).expect("starts");
         (face, foot(surface, p, start))
@@ -98,25 +105,46 @@ fn apart(a: &Brep, b: &Brep) -> f64 {
     ends.map(|(v, w)| (v.point - w.point).length()).fold(worst, f64::max)
 }
 
+/// Displacements go up to 0.25 mm, and are singular around the clamped foot: the largest error is there.
 #[test]
 fn probes_of_base_sphere_and_coarse_are_reproduced() {
-    for name in ["base", "sphere", "coarse"] {
+    for (name, mean_mm, max_mm) in [("base", 3e-5, 1e-3), ("sphere", 3e-5, 5e-4), ("coarse", 2e-4, 3e-3)] {
         let brep = solid(if name == "coarse" { "base" } else { name });
         let done = run(&brep, &precise(name), &Options { factor: -1.0, ..Options::default() });
         let (mean, max) = missed(name, &brep, &done.brep, -1.0);
-        println!(
-            "{name}: probes {mean:e} {max:e} dev {:?} {:?}",
-            done.report.deviation_mm, done.report.solid
+        assert!(
+            mean <= mean_mm && max <= max_mm,
+            "{name}: probes missed by {mean} in the mean, {max} at most"
         );
-        println!(
-            "{:?} {:#?}",
-            done.report.faces.iter().map(|f| (f.poles, f.spans, f.spans_filled)).collect::<Vec<_>>(),
-            done.report.warnings
-        );
+        let verdict = judge(&brep, &done.brep, |_| DVec3::ZERO);
+        let widest = done.report.edges.iter().map(|e| e.gap_mm.after).fold(verdict.gap, f64::max);
+        assert!(widest < verdict.gap_before + 5e-5, "{name}: an edge gapes by {widest}");
         assert_eq!(done.report.solid.folded, 0, "{name}");
-        let widest = done.report.edges.iter().map(|e| e.gap_mm.after - e.gap_mm.before).fold(0.0, f64::max);
-        assert!(widest < 5e-5, "{name}: an edge gapes by {widest} more");
+        assert!(verdict.beyond_tolerance <= 0.0, "{name}: {verdict:?}");
         assert_warns(&done, &["first-order estimate"]);
+    }
+}
+
+/// What becomes of each variant without any option.
+#[test]
+fn every_variant_is_used_or_refused_as_listed() {
+    let brep = solid("base");
+    for name in VARIANTS {
+        let outcome = match try_read(name, None) {
+            Err(_) => "unreadable",
+            Ok(field) => match morph(&brep, &field, &Options::default(), &|_, _| true) {
+                Err(_) => "refused",
+                Ok(_) => "morphed",
+            },
+        };
+        let expected = match name {
+            "empty" | "nan" | "no_disp" | "not_frd" | "truncated" => "unreadable",
+            "huge_disp" | "metres" | "mirrored" | "other_frame" | "partial_disp" | "partial_face" => {
+                "refused"
+            }
+            _ => "morphed",
+        };
+        assert_eq!(outcome, expected, "{name}");
     }
 }
 
@@ -191,7 +219,6 @@ fn parts_of_the_field_are_extended_only_on_demand() {
         assert_eq!(done.report.solid.folded, 0, "{name}");
         let (mean, _) = missed("base", &brep, &done.brep, 1.0);
         // Nothing in place of what is missing would be off by half the displacement, 0.1 mm.
-        println!("{name} {mean}");
         assert!(mean < 0.02, "{name}: probes are off by {mean} in the mean");
     }
 }
@@ -203,7 +230,8 @@ fn of_two_solids_the_covered_one_is_morphed() {
     let done = run(&part, &precise("base"), &Options::default());
     assert_warns(&done, &["2 solids", "only solid"]);
     assert_eq!((done.report.solid.faces, done.report.faces.len()), (6, 6));
-    assert!(apart(&base.brep, &done.brep) < 1e-9);
+    let apart = apart(&base.brep, &done.brep);
+    assert!(apart < 1e-7, "{apart}");
     let chosen = run(&part, &precise("base"), &Options { solid: Some(1), ..Options::default() });
     assert_warns(&chosen, &["2 solids", "as asked"]);
     let error = refusal(&part, &precise("base"), &Options { solid: Some(2), ..Options::default() });
