@@ -14,11 +14,9 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Rounds of the coupled solve.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 2;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
-/// Nodes for each cell of a converted surface, fitted alone and together.
-const NODES_PER_CELL: [usize; 2] = [3, 1];
 
 /// The fitted displacement.
 #[derive(Debug, Clone)]
@@ -69,12 +67,7 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
             Some(_) => Ok(Space { ku: patch.hot.knots_u().clone(), kv: patch.hot.knots_v().clone() }),
             None => {
                 let start = patch.space.with_kinks(&problem.kinks[p])?;
-                surface_fit::fit_alone(
-                    start,
-                    &patch.hot,
-                    &problem.data[p],
-                    &limit(problem, p, NODES_PER_CELL[0]),
-                )
+                surface_fit::fit_alone(start, &patch.hot, &problem.data[p], &limit(problem, p))
             }
         })
         .collect::<Result<_>>()?;
@@ -95,8 +88,8 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
 }
 
 /// How far a patch may be refined.
-fn limit(problem: &Problem<'_>, patch: usize, nodes_per_cell: usize) -> Limit {
-    Limit::new(&problem.hot.patches[patch], problem.data[patch].data.len(), nodes_per_cell)
+fn limit(problem: &Problem<'_>, patch: usize) -> Limit {
+    Limit::new(&problem.hot.patches[patch], problem.data[patch].data.len())
 }
 
 struct Coupled {
@@ -149,7 +142,7 @@ impl Coupled {
         for (p, (space, marks)) in spaces.iter().zip(&marks).enumerate() {
             let refined = match problem.prescribed[p] {
                 Some(_) => None,
-                None => marks.refine(space, &hot.patches[p].hot, &limit(problem, p, NODES_PER_CELL[1]))?,
+                None => marks.refine(space, &hot.patches[p].hot, &limit(problem, p))?,
             };
             asked |= refined.is_some();
             finer.push(refined.unwrap_or_else(|| space.clone()));

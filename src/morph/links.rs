@@ -17,6 +17,10 @@ const WEIGHT: f64 = 20.0;
 const TANGENT_WEIGHT: f64 = 10.0;
 /// Samples in each piece of edge that both patches see as one polynomial.
 const SAMPLES: usize = 4;
+/// Where a patch's area element falls below this fraction of its largest along the joint (a
+/// sphere's pole), directions have no parameters.
+const DEGENERATE: f64 = 1e-6;
+
 /// How a joint is tied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tie {
@@ -105,11 +109,14 @@ pub fn links(hot: &Hot, joint: &Joint, context: &Context<'_>) -> JointLinks {
     let share = nodes / parameters.len() as f64;
     let weight = WEIGHT * WEIGHT * share;
     let tangent_weight = (TANGENT_WEIGHT * context.spacing).powi(2) * share;
+    let area = |t: &Trace| t.d.normal().length();
+    let largest = [0, 1].map(|side| traces.iter().map(|t| area(&t[side])).fold(0.0, f64::max));
     for [ta, tb] in &traces {
         let target = context.affine[b].at(tb.d.s) - context.affine[a].at(ta.d.s);
         let (ra, rb) = (spaces[a].value(ta.uv), spaces[b].value(tb.uv));
         out.position.push(Link { a: (a, ra), b: (b, rb), target, weight });
-        if context.tie == Tie::Tangent {
+        let regular = area(ta) > DEGENERATE * largest[0] && area(tb) > DEGENERATE * largest[1];
+        if context.tie == Tie::Tangent && regular {
             let across = ta.d.normal().cross(ta.tangent()).normalize_or_zero();
             let (Some(wa), Some(wb)) = (ta.resolve(across), tb.resolve(across)) else { continue };
             let row = |s: &Space, uv: DVec2, w: DVec2| s.combine(uv, [0.0, w.x, w.y, 0.0, 0.0, 0.0]);

@@ -11,6 +11,9 @@ use crate::ops::closest::foot;
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// An area element below this fraction of the derivatives' squares is rounding.
+const DEGENERATE: f64 = 1e-12;
+
 /// What one node on one face says of the result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NodeFigures {
@@ -45,22 +48,30 @@ pub fn at_nodes(
             deviation: s - target,
             distance: foot(&cold[patch], target, uv).distance,
             second_order: gradient * u.length(),
-            folded: bu.cross(bv).dot(au.cross(av)) < 0.0,
+            folded: turned([au, av], [bu, bv]),
         }
     };
     matches.par_iter().map(one).collect()
+}
+
+/// Whether the normal of the derivatives `b` is turned against that of `a`. At a pole both are
+/// rounding and say nothing.
+fn turned([au, av]: [DVec3; 2], [bu, bv]: [DVec3; 2]) -> bool {
+    let normal = au.cross(av);
+    let regular = normal.length() > DEGENERATE * (au.length_squared() + av.length_squared());
+    regular && bu.cross(bv).dot(normal) < 0.0
 }
 
 /// Number of places on the faces where the new normal is turned against the old one.
 pub fn folded_samples(hot: &Hot, cold: &[NurbsSurface]) -> usize {
     let one = |face: usize| {
         let patch = hot.faces[face].patch;
-        let turned = |uv: glam::DVec2| {
+        let at = |uv: glam::DVec2| {
             let [_, au, av] = hot.patches[patch].hot.first_derivatives(uv.x, uv.y);
             let [_, bu, bv] = cold[patch].first_derivatives(uv.x, uv.y);
-            bu.cross(bv).dot(au.cross(av)) < 0.0
+            turned([au, av], [bu, bv])
         };
-        coverage::samples(hot, face).iter().filter(|(uv, _)| turned(*uv)).count()
+        coverage::samples(hot, face).iter().filter(|(uv, _)| at(*uv)).count()
     };
     (0..hot.faces.len()).into_par_iter().map(one).sum()
 }

@@ -1,5 +1,7 @@
 //! What a user can choose, and how a caller follows and stops the work.
 
+use crate::error::{Error, Result};
+
 /// Called with the current stage and the overall fraction done; returning `false` cancels.
 pub type Progress<'a> = &'a (dyn Fn(&str, f64) -> bool + Sync);
 
@@ -49,5 +51,33 @@ impl Default for Options {
             face_names: Vec::new(),
             solid_name: String::new(),
         }
+    }
+}
+
+impl Options {
+    /// Whether the numbers make sense.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a number that is not finite, or a length that is not positive.
+    pub fn check(&self) -> Result<()> {
+        let refuse = |name, value: f64, expected: &str| {
+            Err(Error::Argument { name, why: format!("expected {expected}, got {value}") })
+        };
+        for (name, value) in [("factor", self.factor), ("displacement_scale", self.displacement_scale)] {
+            if !value.is_finite() {
+                return refuse(name, value, "a finite number");
+            }
+        }
+        let lengths = [
+            ("tolerance_mm", Some(self.tolerance_mm)),
+            ("match_tolerance_mm", self.match_tolerance_mm),
+            ("field_unit_mm", self.field_unit_mm),
+        ];
+        for (name, value) in lengths {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
+                return refuse(name, value, "a positive length in mm");
+            }
+        }
+        Ok(())
     }
 }

@@ -11,6 +11,8 @@ use crate::ops::approximate::Breaks;
 const NODES_PER_POLE: usize = 3;
 /// Fraction of the allowed poles that a converted surface may start with and still be held to it.
 const ROOM: f64 = 0.8;
+/// Cells for each node at most, on faces whose poles nobody edits.
+const CELLS_PER_NODE: usize = 2;
 /// Growth of a patch whose poles are the user's own and fine already.
 const OWN_GROWTH: usize = 4;
 /// A net with fewer poles than one for so many nodes is coarse: it may grow more.
@@ -28,16 +30,16 @@ pub struct Limit {
 impl Limit {
     /// For a patch with so many nodes. A net of the user's grows at most fourfold, or to one pole
     /// for three nodes if it is coarse; a converted or fillet surface, whose poles nobody edits,
-    /// to one cell for each `nodes_per_cell`.
-    pub fn new(patch: &Patch, nodes: usize, nodes_per_cell: usize) -> Self {
+    /// to two cells for each node.
+    pub fn new(patch: &Patch, nodes: usize) -> Self {
         let (dense, start) = (nodes / NODES_PER_POLE, patch.hot.poles().len());
         let roomy = start as f64 <= ROOM * dense as f64;
-        let poles = match patch.user_poles {
-            Some(own) if patch.own_poles && own * COARSE >= nodes => dense.min(OWN_GROWTH * own).max(start),
-            Some(_) if patch.own_poles || roomy => dense.max(start),
-            _ => usize::MAX,
+        let (poles, cells) = match patch.user_poles {
+            Some(own) if patch.own_poles && own * COARSE >= nodes => (OWN_GROWTH * own, dense),
+            Some(_) if patch.own_poles || roomy => (dense, usize::MAX),
+            _ => (usize::MAX, CELLS_PER_NODE * nodes),
         };
-        Self { poles, cells: if poles < usize::MAX { usize::MAX } else { nodes / nodes_per_cell } }
+        Self { poles: poles.max(start), cells }
     }
 
     fn allows(&self, space: &Space, hot: &NurbsSurface) -> Result<bool> {

@@ -24,6 +24,8 @@ const STRIP_MM: f64 = 1.6e-5;
 const SPAN_LIMIT: usize = 200;
 /// Lowest degree of a displacement: below it second derivatives cannot vary smoothly.
 const LOWEST_DEGREE: usize = 3;
+/// A knot this close to the end of a window, as a fraction of it, is its end.
+const KNOT_SLACK: f64 = 1e-9;
 /// Angular spans to start from.
 const START_ANGLE: f64 = std::f64::consts::FRAC_PI_3;
 
@@ -200,7 +202,9 @@ fn start_breaks(
     match run {
         Run::Straight => Breaks::simple(LOWEST_DEGREE, &[a, b]),
         Run::Kept(Breaks { degree, at }) => {
-            let inner = at.into_iter().filter(|&(t, _)| t > a && t < b);
+            // A window may end a rounding beyond the last knot.
+            let slack = KNOT_SLACK * (b - a);
+            let inner = at.into_iter().filter(|&(t, _)| t > a + slack && t < b - slack);
             Breaks { degree, at: [(a, 1)].into_iter().chain(inner).chain([(b, 1)]).collect() }
         }
         Run::Angular => {
@@ -246,7 +250,7 @@ pub fn curve_breaks(curve: &Curve3d, a: f64, b: f64) -> Breaks {
 
 /// Knots strictly inside (a, b), repeated with the period.
 fn unroll(knots: &[f64], period: Option<f64>, a: f64, b: f64) -> Vec<f64> {
-    let slack = 1e-9 * (b - a);
+    let slack = KNOT_SLACK * (b - a);
     let inside = |t: &f64| *t > a + slack && *t < b - slack;
     let Some(period) = period else { return knots.iter().copied().filter(inside).collect() };
     let (first, last) = (((a - knots[0]) / period).floor() as i64, ((b - knots[0]) / period).ceil() as i64);

@@ -41,6 +41,7 @@ const HELD: f64 = 1e-6;
 /// # Errors
 /// See [`Error`]; nothing is returned that does not hold together.
 pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
+    options.check()?;
     let start = Instant::now();
     let mut seconds = Seconds::default();
     let mut warnings = field.warnings.clone();
@@ -63,7 +64,7 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     step(progress, "measuring the result", 0.85)?;
     let outcome =
         Outcome { selected: &selected, task: &task, fit: &fit, cold: &cold, edges: &edges, out: &out };
-    let (mut report, nodes) = summary::summarise(&outcome, field, options, holdout.as_deref(), warnings);
+    let (mut report, nodes) = summary::summarise(&outcome, field, options, holdout.as_deref(), warnings)?;
     seconds.rebuild = clock.elapsed().as_secs_f64();
     seconds.total = start.elapsed().as_secs_f64();
     report.seconds = seconds;
@@ -118,7 +119,12 @@ impl<'a> Task<'a> {
         let bare: Vec<Uncovered> = bare.into_iter().filter(|b| !fixed[b.face]).collect();
         check_coverage(&bare, left, options, warnings)?;
         let hot_angles_deg = measure::hot_angles_deg(hot, &selected.brep);
-        let local = local_affine(hot, &used, displacements, &affine);
+        let affine_suffices = left <= AFFINE_MM && !fixed.contains(&true);
+        let local = if affine_suffices {
+            vec![AffineField::NONE; hot.patches.len()]
+        } else {
+            local_affine(hot, &used, displacements, &affine)
+        };
         let held = held_faces(hot, matches, displacements, selected.nodes.largest_mm);
         let stays = |(p, local): (&Patch, &AffineField)| {
             p.faces.iter().all(|f| fixed[*f] || held[*f]).then(|| stay(p, &affine, local))
@@ -133,7 +139,7 @@ impl<'a> Task<'a> {
             displacements,
             affine,
             local,
-            affine_suffices: left <= AFFINE_MM && !fixed.contains(&true),
+            affine_suffices,
             spacings,
             prescribed,
             ties,
@@ -171,13 +177,29 @@ impl<'a> Task<'a> {
         fit::fit(&problem, progress)
     }
 
+    /// The input's own spline where an affine motion is all: it needs no other representation.
+    fn exact(&self, patch: usize) -> Result<Option<NurbsSurface>> {
+        if self.affine_suffices {
+            input_spline(&self.brep.surfaces[self.hot.patches[patch].surface])
+        } else {
+            Ok(None)
+        }
+    }
+
+    /// The surfaces before they moved.
+    ///
+    /// # Errors
+    /// As [`NurbsSurface::clamped`].
+    pub fn before(&self) -> Result<Vec<NurbsSurface>> {
+        let one = |p: usize| Ok(self.exact(p)?.unwrap_or_else(|| self.hot.patches[p].hot.clone()));
+        (0..self.hot.patches.len()).map(one).collect()
+    }
+
     /// The surfaces moved by the affine part and the fit.
     fn surfaces(&self, fit: &Fit) -> Result<Vec<NurbsSurface>> {
         let one = |p: usize| {
             let (patch, space) = (&self.hot.patches[p], &fit.spaces[p]);
-            if let (true, Some(exact)) =
-                (self.affine_suffices, input_spline(&self.brep.surfaces[patch.surface])?)
-            {
+            if let Some(exact) = self.exact(p)? {
                 return moved(exact, &self.affine);
             }
             let both = space.union(patch.hot.knots_u(), patch.hot.knots_v())?;
@@ -220,10 +242,11 @@ fn local_affine(
         points[patch].push(m.foot.point);
         left[patch].push(displacements[m.node as usize] - affine.at(m.foot.point));
     }
-    let fit = |(x, d): (&Vec<DVec3>, &Vec<DVec3>)| {
-        if x.len() < LOCAL_NODES { AffineField::NONE } else { AffineField::fit(x, d) }
+    let fit = |p: usize| {
+        let few = points[p].len() < LOCAL_NODES || hot.patches[p].own_poles;
+        if few { AffineField::NONE } else { AffineField::fit(&points[p], &left[p]) }
     };
-    points.iter().zip(&left).map(fit).collect()
+    (0..hot.patches.len()).map(fit).collect()
 }
 
 /// The input's own spline, if the surface is one.

@@ -11,6 +11,7 @@ use super::select::Selected;
 use super::surface_fit::Cells;
 use super::{NodeResult, data::PatchData};
 use crate::brep::Brep;
+use crate::error::Result;
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
 
@@ -40,13 +41,16 @@ pub fn face_name(options: &Options, face: usize) -> String {
 
 /// Measures the outcome. `holdout` gives, by match, what the second fit missed (NaN where the
 /// node was used).
+///
+/// # Errors
+/// As [`Task::before`].
 pub fn summarise(
     outcome: &Outcome<'_>,
     field: &Field,
     options: &Options,
     holdout: Option<&[f64]>,
     mut warnings: Vec<String>,
-) -> (Report, Vec<NodeResult>) {
+) -> Result<(Report, Vec<NodeResult>)> {
     let Selected { brep, hot, nodes, association, .. } = outcome.selected;
     let matches = &association.matches[..];
     let figures = measure::at_nodes(hot, brep, outcome.cold, matches, &nodes.displacements);
@@ -59,7 +63,7 @@ pub fn summarise(
         &outcome.task.hot_angles_deg,
         &outcome.task.held,
     );
-    let before = mass(hot, &hot.patches.iter().map(|p| p.hot.clone()).collect::<Vec<_>>());
+    let before = mass(hot, &outcome.task.before()?);
     let after = mass(hot, outcome.cold);
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
     warn(outcome, options, &figures, folded, &mut warnings);
@@ -88,7 +92,7 @@ pub fn summarise(
         warnings,
         seconds: Seconds::default(),
     };
-    (report, results.collect())
+    Ok((report, results.collect()))
 }
 
 fn solid(outcome: &Outcome<'_>, before: &Mass, after: &Mass, folded: usize) -> SolidReport {

@@ -14,7 +14,7 @@ const CUT_OFF: f64 = 0.2;
 /// Weight that keeps coefficients without any evidence at zero.
 const RIDGE: f64 = 1e-10;
 /// Residual at which a cell is left alone, mm.
-pub const TARGET_MM: f64 = 1.5e-5;
+pub const TARGET_MM: f64 = 2.5e-5;
 /// Shortest side of a cell in node spacings, as long as only nodes ask for more.
 pub const SHORTEST: f64 = 2.0;
 /// A residual that asks for knots as dense as edges do, mm: the field is singular there.

@@ -46,7 +46,8 @@ class Case(unittest.TestCase):
             if edge["tangent"] and not edge["held"]:
                 self.assertLessEqual(angle["after"], angle["before"] + TANGENT_DEG, name)
             if edge["tangent"] and angle["after"] > angle["before"] + TANGENT_DEG:
-                self.assertRegex(done.warnings, rf"\b{edge['index']}\b", f"{name} is not named")
+                beside = "|".join(f"Face{face}" for face in edge["faces"])
+                self.assertRegex(done.warnings, rf"holds.*\b({beside})\b", f"{name} is not named")
 
     def assert_pole_per_nodes(self, done, nodes_per_pole: float):
         """Faces that are not simple shapes carried along have few poles for their nodes."""
@@ -62,6 +63,7 @@ class Case(unittest.TestCase):
 
 class CompressorBlade(Case):
     PART = common.EXAMPLE / "hot.step.gz"
+    AEROFOIL = (1, 2, 5, 6)
 
     def morphed(self):
         field, mesh = common.EXAMPLE / "blade.frd.gz", common.EXAMPLE / "blade.inp.gz"
@@ -85,7 +87,8 @@ class CompressorBlade(Case):
         report = self.morphed().report
         self.assertLessEqual(report["holdout_mm"]["mean"], 2e-5)
         self.assertLessEqual(report["holdout_mm"]["max"], 1e-3)
-        for face in report["faces"][:4]:
+        for index in self.AEROFOIL:
+            face = report["faces"][index - 1]
             self.assertLessEqual(face["holdout_mm"]["max"], 5e-5, face["name"])
 
     def test_the_probes_are_reproduced(self):
@@ -93,8 +96,9 @@ class CompressorBlade(Case):
 
     def test_the_aerofoil_has_at_most_four_times_its_poles(self):
         hot = step.read(str(self.PART)).shape
-        for index, face in enumerate(self.morphed().report["faces"][:4]):
-            surface = hot.Faces[index].Surface
+        for index in self.AEROFOIL:
+            face = self.morphed().report["faces"][index - 1]
+            surface = hot.Faces[index - 1].Surface
             before = surface.NbUPoles * surface.NbVPoles
             after = face["poles"][0] * face["poles"][1]
             self.assertLessEqual(after, 4 * before, face["name"])

@@ -115,7 +115,7 @@ class ProgressBar(unittest.TestCase):
     def test_a_terminal_sees_stage_and_share_and_is_left_clean(self):
         terminal = Terminal()
         with Progress(quiet=False, stream=terminal) as progress:
-            self.assertTrue(progress("fit", 0.5))
+            progress("fit", 0.5)
         text = terminal.getvalue()
         self.assertIn("50%", text)
         self.assertIn("fit", text)

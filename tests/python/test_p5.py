@@ -32,15 +32,20 @@ class Awkward(unittest.TestCase):
         self.assertTrue(done.solid.isValid() and done.solid.isClosed())
 
     def assert_same_surface(self, first, second, tolerance_mm):
-        """Equal parameters give equal points on every face."""
+        """Equal parameters give equal points on every face, within its borders."""
         for index, (a, b) in enumerate(zip(first.solid.Faces, second.solid.Faces), 1):
-            low_u, high_u, low_v, high_v = a.ParameterRange
-            for i in range(9):
-                for j in range(9):
-                    u = low_u + (high_u - low_u) * i / 8
-                    v = low_v + (high_v - low_v) * j / 8
+            inside = 0
+            for u, v in parameters(a, 9):
+                if a.isPartOfDomain(u, v):
+                    inside += 1
                     distance = a.Surface.value(u, v).distanceToPoint(b.Surface.value(u, v))
                     self.assertLess(distance, tolerance_mm, f"Face{index} at ({u}, {v})")
+            self.assertGreater(inside, 9, f"Face{index} has no samples")
+
+    def assert_reproduced(self, errors):
+        """Closely on the whole, and everywhere within the tolerance that is asked for by default."""
+        self.assertLess(mean(errors), 2e-5)
+        self.assertLess(max(errors), 1e-3)
 
     def probe_errors(self, done, part, truth, factor=1.0):
         hot = step.read(str(part)).shape
@@ -48,20 +53,29 @@ class Awkward(unittest.TestCase):
         return common.probe_errors(hot, done.solid, rows, factor)
 
 
+def parameters(face, count):
+    """A grid of parameters over a face's range."""
+    low_u, high_u, low_v, high_v = face.ParameterRange
+    for i in range(count):
+        for j in range(count):
+            yield (
+                low_u + (high_u - low_u) * (i + 0.5) / count,
+                low_v + (high_v - low_v) * (j + 0.5) / count,
+            )
+
+
 class Good(Awkward):
     def test_the_good_case_reproduces_the_probes(self):
         done = morph(BASE, FRD, *MESH)
         self.assert_morphed(done)
         errors = self.probe_errors(done, BASE, "base")
-        self.assertLess(mean(errors), 2e-5)
-        self.assertLess(max(errors), 5e-4)
+        self.assert_reproduced(errors)
 
     def test_taking_the_field_away_reproduces_the_probes_and_warns_of_the_first_order(self):
         done = morph(BASE, FRD, *MESH, "--factor", "-1")
         self.assert_morphed(done)
         errors = self.probe_errors(done, BASE, "base", -1.0)
-        self.assertLess(mean(errors), 2e-5)
-        self.assertLess(max(errors), 5e-4)
+        self.assert_reproduced(errors)
         self.assertRegex(done.warnings, r"first-order estimate.*\d")
 
     def test_poles_and_seams_survive(self):
@@ -69,8 +83,7 @@ class Good(Awkward):
         done = morph(part, packed("sphere.frd"), "--mesh", str(packed("sphere.inp")))
         self.assert_morphed(done, faces=4)
         errors = self.probe_errors(done, part, "sphere")
-        self.assertLess(mean(errors), 2e-5)
-        self.assertLess(max(errors), 5e-4)
+        self.assert_reproduced(errors)
 
     def test_fewer_nodes_than_poles_give_no_wiggles_and_a_warning(self):
         done = morph(BASE, packed("coarse.frd"), "--mesh", str(packed("coarse.inp")))
@@ -168,7 +181,7 @@ class Units(Awkward):
     def test_displacements_in_another_unit_are_suspected_and_can_be_scaled(self):
         done = morph(BASE, awkward("disp_metres_only"))
         self.assert_morphed(done)
-        self.assertRegex(done.warnings, "very small")
+        self.assertIn("--displacement-scale 1000", done.warnings)
         scaled = morph(BASE, awkward("disp_metres_only"), "--displacement-scale", "1000")
         self.assert_morphed(scaled)
         self.assert_same_surface(scaled, morph(BASE, FRD), 2e-6)
@@ -202,7 +215,7 @@ class Solids(Awkward):
         part = packed("two_solids.step")
         done = morph(part, FRD)
         self.assert_morphed(done)
-        self.assertRegex(done.warnings, r"solid 1 of 2|solid 2.*not")
+        self.assertRegex(done.warnings, "only solid 1 is morphed")
         self.assertEqual(len(done.solid.Solids), 1)
         self.assert_same_surface(done, morph(BASE, FRD), 1e-6)
         chosen = morph(part, FRD, "--solid", "1")

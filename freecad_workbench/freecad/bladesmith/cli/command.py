@@ -6,7 +6,6 @@ written); 1 anything else, cancelling included.
 
 import argparse
 import os
-import signal
 import sys
 import traceback
 from typing import Optional
@@ -14,6 +13,7 @@ from typing import Optional
 from .. import __version__
 from ..model.options import FIELD_UNITS_MM
 from ..native.errors import BladesmithError, Cancelled, InternalError
+from . import interruption
 
 EXIT_FAILURE = 1
 _EPILOG = """\
@@ -23,7 +23,7 @@ exit codes: 0 success, 2 unusable input, 3 the result misses --tolerance (it is 
 
 def main(arguments: Optional[list[str]] = None) -> int:
     """Runs one command and returns its exit code."""
-    signal.signal(signal.SIGTERM, _interrupt)
+    interruption.install()
     options = _parser().parse_args(arguments)
     try:
         return options.run(options)
@@ -40,10 +40,6 @@ def main(arguments: Optional[list[str]] = None) -> int:
         return _failed(BladesmithError(f"{place}{error.strerror or error}"))
     except Exception as error:
         return _failed(InternalError(f"{type(error).__name__}: {error}"))
-
-
-def _interrupt(_number, _frame):
-    raise KeyboardInterrupt
 
 
 def _failed(error: BladesmithError) -> int:

@@ -12,6 +12,7 @@ from .. import __version__
 from ..model import FIELD_UNITS_MM, MorphOptions, Report
 from ..native import BladesmithError, Field, InputError, Morphed, Part, SetupError
 from ..occ import judge, step
+from . import interruption
 from .faces import selected
 from .names_file import names_path, names_text
 from .outputs import Outputs, check_target
@@ -43,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     with Progress(options.quiet) as progress, Outputs() as outputs:
         progress("reading the part", 0.0)
         part = step.read(options.part)
-        result = _morph(options, part, progress)
+        result = _morph(options, part, progress, started)
         written = time.monotonic()
         _write_solid(options, part, result, outputs, progress)
         result.report.seconds["write"] += time.monotonic() - written
@@ -93,8 +94,9 @@ def _check_pictures() -> None:
         )
 
 
-def _morph(options: argparse.Namespace, part: step.StepPart, progress: Progress) -> _Result:
-    started = time.monotonic()
+def _morph(
+    options: argparse.Namespace, part: step.StepPart, progress: Progress, started: float
+) -> _Result:
     chosen = step.chosen_solid(part, options.solid)
     settings = _settings(options, part, chosen)
     shape = part.shape if chosen is None else part.shape.Solids[chosen]
@@ -104,9 +106,11 @@ def _morph(options: argparse.Namespace, part: step.StepPart, progress: Progress)
     read = time.monotonic() - started
 
     def share(stage: str, fraction: float) -> bool:
-        return progress(stage, _READ_DONE + (_CORE_DONE - _READ_DONE) * fraction)
+        progress(stage, _READ_DONE + (_CORE_DONE - _READ_DONE) * fraction)
+        return not interruption.asked()
 
-    morphed = Morphed.morph(core_part, field, settings.settings(), share)
+    with interruption.deferred():
+        morphed = Morphed.morph(core_part, field, settings.settings(), share)
     report = Report(morphed.report())
     report.seconds["read"] = read
     cold = step.from_brep(morphed.part().write())

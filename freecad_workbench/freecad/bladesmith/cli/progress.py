@@ -25,8 +25,8 @@ class Progress:
             self._stream.write("\r\x1b[K")
             self._stream.flush()
 
-    def __call__(self, stage: str, fraction: float) -> bool:
-        """Shows the stage and the fraction done; always asks to go on."""
+    def __call__(self, stage: str, fraction: float) -> None:
+        """Shows the stage and the fraction done."""
         now = time.monotonic()
         if self._shown and now - self._drawn >= _INTERVAL_S:
             self._drawn = now
@@ -36,4 +36,3 @@ class Progress:
                 f"\r[{bar:<{_WIDTH}}] {fraction:4.0%} {now - self._started:5.1f} s  {stage}\x1b[K"
             )
             self._stream.flush()
-        return True

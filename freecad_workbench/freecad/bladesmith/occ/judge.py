@@ -6,7 +6,7 @@ Only calls that survive bad geometry are used: ``Face.validate`` and its like ca
 from dataclasses import dataclass, field
 
 _FRACTIONS = (0.11, 0.37, 0.63, 0.89)
-_VOLUME_NOISE = 1e-5
+_VOLUME_NOISE = 1e-3
 """Open CASCADE integrates trimmed spline faces to no more than this, relative to the volume."""
 
 

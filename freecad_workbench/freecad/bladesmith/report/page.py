@@ -60,7 +60,7 @@ def _pictures(
         (
             "histograms",
             pictures.histogram_picture(nodes, tolerance_mm),
-            "Nodes by deviation and by displacement.",
+            "Nodes by deviation (below 1e-9 counted there) and by displacement.",
         ),
     ]
     found = []
@@ -121,7 +121,7 @@ def _figures(report: Report) -> str:
     shown = [
         ("largest deviation, mm", words.length(report.deviation_mm.max)),
         ("mean deviation, mm", words.length(report.deviation_mm.mean)),
-        ("nodes on the part", str(sum(face.nodes for face in report.faces))),
+        ("nodes on faces", str(sum(face.nodes for face in report.faces))),
         ("change of volume", f"{change:+.3%}"),
     ]
     if report.holdout_mm:

@@ -20,8 +20,8 @@ _SIZE = (640, 620)
 _DPI = 130
 _AZIMUTHS = 24
 _ELEVATION = 0.42
-_GAP, _TITLE = 24, 26
-"""Pixels between panels and above them."""
+_GAP, _TITLE, _FOOT = 24, 26, 30
+"""Pixels between panels, above and below them."""
 
 _DISPLACEMENT_COLOURS = ("turbo", 0.06, 0.94)
 _DEVIATION_COLOURS = ("YlOrRd", 0.0, 1.0)
@@ -56,12 +56,9 @@ class Scene:
         deviation = numpy.linalg.norm(nodes["deviations"], axis=1)
         size = float(numpy.linalg.norm(numpy.ptp(hot.points, axis=0)))
         hot = refined(hot, size * _LONGEST_SIDE)
-        return cls(
-            hot,
-            cold,
-            at_mesh_points(hot, nodes, nodes["displacements"]),
-            at_mesh_points(hot, nodes, deviation),
-        )
+        values = numpy.column_stack((nodes["displacements"], deviation))
+        carried = at_mesh_points(hot, nodes, values)
+        return cls(hot, cold, carried[:, :3], carried[:, 3])
 
     def cameras(self) -> list:
         """Two opposite views, turned so that they show most of what moves; the longest side up."""
@@ -157,19 +154,19 @@ def histogram_picture(nodes: dict, tolerance_mm: float):
 def _figure(images, colour_bar: bool):
     """A figure with a panel as large as each image, side by side, and room for a colour bar."""
     widths = [image.shape[1] for image in images]
-    height = max(image.shape[0] for image in images)
+    height = max(image.shape[0] for image in images) + _FOOT + _TITLE
     bar = 140 if colour_bar else 0
     total = sum(widths) + _GAP * (len(images) - 1) + bar
-    figure = pyplot.figure(figsize=(total / _DPI, (height + _TITLE) / _DPI), dpi=_DPI)
+    figure = pyplot.figure(figsize=(total / _DPI, height / _DPI), dpi=_DPI)
     left, axes = 0, []
     for width, image in zip(widths, images):
-        share = image.shape[0] / (height + _TITLE)
-        axis = figure.add_axes((left / total, 0, width / total, share))
+        place = (left / total, _FOOT / height, width / total, image.shape[0] / height)
+        axis = figure.add_axes(place)
         axis.imshow(image, interpolation="none", aspect="auto")
         axis.set_axis_off()
         axes.append(axis)
         left += width + _GAP
-    bar_axis = figure.add_axes((left / total, 0.12, 18 / total, 0.7)) if colour_bar else None
+    bar_axis = figure.add_axes((left / total, 0.14, 18 / total, 0.7)) if colour_bar else None
     return figure, axes, bar_axis
 
 
@@ -197,12 +194,15 @@ def _map_figure(drawings, values, scale, colour_range, label: str):
 
 
 def _scale_bar(axis, camera: raster.Camera) -> None:
+    """A bar of a round length below the picture."""
     pixel = camera.pixel_mm * shading.OVERSAMPLING
     width, height = camera.width / shading.OVERSAMPLING, camera.height / shading.OVERSAMPLING
     length = _round_down(0.25 * width * pixel)
-    start, row = 0.03 * width, 0.965 * height
-    axis.plot((start, start + length / pixel), (row, row), color="#39424e", linewidth=2)
-    axis.text(start, row - 6, f"{length:g} mm", color="#39424e", va="bottom", fontsize=8)
+    start, row = 0.03 * width, height + 0.45 * _FOOT
+    end = start + length / pixel
+    axis.plot((start, end), (row, row), color="#39424e", linewidth=2, clip_on=False)
+    axis.text(end + 8, row, f"{length:g} mm", color="#39424e", va="center", fontsize=8)
+    axis.set(xlim=(-0.5, width - 0.5), ylim=(height - 0.5, -0.5))
 
 
 def _round_down(value: float) -> float:

@@ -5,12 +5,16 @@ normals are interpolated smoothly and one drawing serves several colourings.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy
 
 from ..occ.tessellation import Tessellation
 
-_BATCH = 2_000_000
+_FLAT = 1e-9
+"""Twice the area, in pixels, of a triangle that is seen from its side and not drawn."""
+
+_BATCH = 4_000_000
 """About how many pixels are worked on at a time."""
 
 
@@ -55,12 +59,11 @@ class Camera:
 
 @dataclass
 class Drawing:
-    """What each pixel shows: a triangle (-1: nothing), the weights of its corners, its height."""
+    """What each pixel shows: a triangle (-1: nothing) and its height."""
 
     camera: Camera
     mesh: Tessellation
     triangle: numpy.ndarray
-    weights: numpy.ndarray
     height: numpy.ndarray
 
     @property
@@ -68,46 +71,77 @@ class Drawing:
         """(height, width) whether a pixel shows the part."""
         return self.triangle >= 0
 
+    @cached_property
+    def _weights(self) -> tuple:
+        """Corners of the triangles at the shown pixels, and how much each counts there."""
+        row, column = numpy.nonzero(self.shown)
+        corners = self.mesh.triangles[self.triangle[row, column]].T
+        flat = self.camera.project(self.mesh.points)[:, :2]
+        a, b, c = (flat[corner] for corner in corners)
+        centre = numpy.stack((column, row), 1) + 0.5
+        area = _cross(b - a, c - a)
+        first = _cross(b - centre, c - centre) / area
+        second = _cross(c - centre, a - centre) / area
+        return corners, numpy.stack((first, second, 1 - first - second)).astype(numpy.float32)
+
     def interpolate(self, values: numpy.ndarray) -> numpy.ndarray:
         """Values given at the mesh's points, at the pixels in :attr:`shown`."""
-        corners = self.mesh.triangles[self.triangle[self.shown]]
-        weights = self.weights[self.shown]
-        if values.ndim == 2:
-            weights = weights[..., None]
-        return (values[corners] * weights).sum(axis=1)
+        values = values.astype(numpy.float32)
+        corners, weights = self._weights
+        found = 0
+        for corner, weight in zip(corners, weights):
+            found = found + values[corner] * (weight[:, None] if values.ndim == 2 else weight)
+        return found
 
 
 def draw(mesh: Tessellation, camera: Camera) -> Drawing:
     """Finds the nearest triangle for every pixel."""
     shape = (camera.height, camera.width)
     drawing = Drawing(
-        camera,
-        mesh,
-        numpy.full(shape, -1),
-        numpy.zeros((*shape, 3), numpy.float32),
-        numpy.full(shape, -numpy.inf),
+        camera, mesh, numpy.full(shape, -1), numpy.full(shape, -numpy.inf, numpy.float32)
     )
     corners = camera.project(mesh.points)[mesh.triangles]
+    kept = numpy.flatnonzero(numpy.abs(_cross(*_sides(corners))) > _FLAT)
+    corners = corners[kept]
     rows = numpy.ceil(corners[:, :, 1].max(axis=1)) - numpy.floor(corners[:, :, 1].min(axis=1))
     columns = numpy.ceil(numpy.ptp(corners[:, :, 0], axis=1)) + 1
     batches = numpy.cumsum(rows * columns) // _BATCH
     for batch in numpy.unique(batches):
-        _draw_batch(drawing, corners, numpy.flatnonzero(batches == batch))
+        chosen = batches == batch
+        _draw_batch(drawing, corners[chosen], kept[chosen])
     return drawing
 
 
-def _draw_batch(drawing: Drawing, corners, chosen) -> None:
-    """Fills the rows of pixels between the sides of each chosen triangle."""
+def _draw_batch(drawing: Drawing, corners, numbers) -> None:
+    """Fills the rows of pixels between the sides of each triangle."""
     camera = drawing.camera
-    heights = corners[chosen, :, 1]
-    which, row = _ranges(heights.min(axis=1), heights.max(axis=1), camera.height)
-    triangle = chosen[which]
-    start, end = _crossings(corners[triangle], row + 0.5)
-    which, column = _ranges(start, end, camera.width)
-    triangle, row = triangle[which], row[which]
-    weights = _weights(corners[triangle], column + 0.5, row + 0.5)
-    height = (weights * corners[triangle, :, 2]).sum(-1)
-    _keep_nearest(drawing, triangle, weights, row * camera.width + column, height)
+    which, row = _ranges(corners[:, :, 1].min(axis=1), corners[:, :, 1].max(axis=1), camera.height)
+    start, end = _crossings(corners[which], row + 0.5)
+    span, column = _ranges(start, end, camera.width)
+    which, row = which[span], row[span]
+    rise = _slopes(corners)[which]
+    first = corners[which, 0]
+    height = (
+        first[:, 2]
+        + rise[:, 0] * (column + 0.5 - first[:, 0])
+        + rise[:, 1] * (row + 0.5 - first[:, 1])
+    )
+    _keep_nearest(drawing, numbers[which], row * camera.width + column, height)
+
+
+def _sides(corners):
+    """The sides from the first corner to the other two, in the picture's plane."""
+    return corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+
+
+def _slopes(corners) -> numpy.ndarray:
+    """(n, 2) change of height by column and by row."""
+    a, b = _sides(corners)
+    up, over = corners[:, 1, 2] - corners[:, 0, 2], corners[:, 2, 2] - corners[:, 0, 2]
+    area = _cross(a, b)
+    by_column = (up * b[:, 1] - over * a[:, 1]) / area
+    by_row = (over * a[:, 0] - up * b[:, 0]) / area
+    return numpy.stack((by_column, by_row), -1)
 
 
 def _ranges(low, high, limit: int):
@@ -137,28 +171,14 @@ def _crossings(corners, rows):
     return start, end
 
 
-def _weights(corners, columns, rows) -> numpy.ndarray:
-    """(n, 3) barycentric coordinates of pixel centres."""
-    centre = numpy.stack((columns, rows), -1)
-    a, b, c = (corners[:, k, :2] for k in range(3))
-    area = _cross(b - a, c - a)
-    area[numpy.abs(area) < 1e-12] = 1
-    first = _cross(b - centre, c - centre) / area
-    second = _cross(c - centre, a - centre) / area
-    return numpy.stack((first, second, 1 - first - second), -1)
-
-
-def _keep_nearest(drawing: Drawing, triangle, weights, place, height) -> None:
+def _keep_nearest(drawing: Drawing, triangle, place, height) -> None:
     order = numpy.argsort(height)
-    winner = numpy.full(drawing.triangle.size, -1)
-    winner[place[order]] = order
-    place = numpy.flatnonzero(winner >= 0)
-    winner = winner[place]
-    nearer = height[winner] > drawing.height.reshape(-1)[place]
-    place, winner = place[nearer], winner[nearer]
-    drawing.height.reshape(-1)[place] = height[winner]
-    drawing.triangle.reshape(-1)[place] = triangle[winner]
-    drawing.weights.reshape(-1, 3)[place] = weights[winner]
+    place, height, triangle = place[order], height[order], triangle[order]
+    nearer = height > drawing.height.reshape(-1)[place]
+    place, height, triangle = place[nearer], height[nearer], triangle[nearer]
+    # Of several values for one place the last assigned stays: the highest.
+    drawing.height.reshape(-1)[place] = height
+    drawing.triangle.reshape(-1)[place] = triangle
 
 
 def visible_lines(drawing: Drawing, thickness: int) -> numpy.ndarray:

@@ -6,7 +6,7 @@ import numpy
 
 from .raster import Drawing, visible_lines
 
-OVERSAMPLING = 3
+OVERSAMPLING = 2
 """Pixels drawn for each pixel of the finished image, each way."""
 
 STEEL = numpy.array([0.70, 0.745, 0.79])
