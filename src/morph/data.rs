@@ -51,7 +51,7 @@ pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
                 }
                 last.sqrt()
             };
-            own.iter().map(nth).collect()
+            own.par_iter().map(nth).collect()
         })
         .collect();
     per_face.concat()

@@ -109,7 +109,7 @@ mod tests {
 
     fn ring() -> Trim {
         let circle = |r: f64| -> Vec<DVec2> {
-            (0..200)
+            (0..=200)
                 .map(|i| i as f64 / 200.0 * std::f64::consts::TAU)
                 .map(|a| r * DVec2::new(a.cos(), a.sin()))
                 .collect()

@@ -123,7 +123,9 @@ impl KnotVector {
     /// The `degree + 1` basis functions that do not vanish on `span` (A2.2).
     pub fn basis(&self, span: usize, u: f64, out: &mut [f64]) {
         match self.degree {
+            2 => self.basis_of::<2>(span, u, out),
             3 => self.basis_of::<3>(span, u, out),
+            4 => self.basis_of::<4>(span, u, out),
             5 => self.basis_of::<5>(span, u, out),
             _ => self.basis_of_any(span, u, out),
         }
