@@ -38,11 +38,12 @@ pub fn uncovered(hot: &Hot, matches: &[Match], spacings: &[f64]) -> Vec<Uncovere
         let (mut bare, mut total) = (0.0, 0.0);
         for (uv, area) in samples(hot, face) {
             let p = hot.patches[hot.faces[face].patch].hot.point(uv.x, uv.y);
-            let near = tree
+            // Nodes crowd around small features: one farther off, in the coarser mesh, may cover more.
+            let covered = tree
                 .nearest_neighbor_iter_with_distance_2(&p.to_array())
                 .take(CANDIDATES)
-                .find(|(e, _)| neighbours[face].contains(&(e.data.0 as usize)));
-            let covered = near.is_some_and(|(e, d)| d.sqrt() <= REACH * e.data.1.max(1e-9));
+                .filter(|(e, _)| neighbours[face].contains(&(e.data.0 as usize)))
+                .any(|(e, d)| d.sqrt() <= REACH * e.data.1.max(1e-9));
             total += area;
             bare += if covered { 0.0 } else { area };
         }

@@ -9,6 +9,9 @@ use rstar::{RTree, primitives::GeomWithData};
 /// Which neighbour's distance stands for the spacing: in a triangular net six are equally near.
 const NEIGHBOUR: usize = 3;
 
+/// Feet closer than this are one place, mm.
+const COINCIDENT_MM: f64 = 1e-9;
+
 /// One datum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
@@ -43,12 +46,10 @@ pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
             let points: Vec<_> = own.iter().map(|m| GeomWithData::new(m.foot.point.to_array(), ())).collect();
             let tree = RTree::bulk_load(points);
             let nth = |m: &Match| {
-                let mut neighbours = tree.nearest_neighbor_iter_with_distance_2(&m.foot.point.to_array());
-                // Nodes that coincide tell nothing; the first is the node itself.
-                let mut last = 0.0;
-                for _ in 0..=NEIGHBOUR {
-                    last = neighbours.next().map_or(last, |n| n.1);
-                }
+                // Nodes that coincide, the first being the node itself, tell nothing.
+                let neighbours = tree.nearest_neighbor_iter_with_distance_2(&m.foot.point.to_array());
+                let apart = neighbours.map(|n| n.1).filter(|d| *d > COINCIDENT_MM * COINCIDENT_MM);
+                let last = apart.take(NEIGHBOUR).last().unwrap_or(0.0);
                 last.sqrt()
             };
             own.par_iter().map(nth).collect()

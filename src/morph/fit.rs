@@ -13,8 +13,10 @@ use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// Rounds of the coupled solve.
-const ROUNDS: usize = 2;
+/// Rounds of the coupled solve as a rule, and where something is still far off.
+const ROUNDS: [usize; 2] = [2, 4];
+/// What is far off, as a fraction of the tolerance asked.
+const FAR: f64 = 0.8;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
 
@@ -42,6 +44,8 @@ pub struct Problem<'a> {
     pub hot: &'a Hot,
     /// Data of each patch.
     pub data: &'a [PatchData],
+    /// Deviation that still counts as success, mm.
+    pub tolerance_mm: f64,
     /// Affine fields of the patches, to which the fitted displacements are added.
     pub affine: &'a [AffineField],
     /// How each joint is tied.
@@ -72,12 +76,14 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
         })
         .collect::<Result<_>>()?;
     let mut coefficients = Vec::new();
-    for round in 0..ROUNDS {
-        if !progress("fitting all faces together", round as f64 / ROUNDS as f64) {
+    for round in 0..ROUNDS[1] {
+        if !progress("fitting all faces together", round as f64 / ROUNDS[1] as f64) {
             return Err(Error::Cancelled);
         }
         let coupled = Coupled::solve(problem, &spaces)?;
-        let finer = if round + 1 < ROUNDS { coupled.refine(problem, &spaces)? } else { None };
+        let more = round + 1 < ROUNDS[0]
+            || (round + 1 < ROUNDS[1] && coupled.worst_mm(problem, &spaces) > FAR * problem.tolerance_mm);
+        let finer = if more { coupled.refine(problem, &spaces)? } else { None };
         coefficients = coupled.coefficients;
         match finer {
             Some(finer) => spaces = finer,
@@ -127,6 +133,16 @@ impl Coupled {
         let all: Vec<_> = links.iter().flat_map(|l| l.position.iter().chain(&l.tangent)).cloned().collect();
         let coefficients = system::solve(&blocks, &all, count)?;
         Ok(Self { coefficients, blocks, cells, links })
+    }
+
+    /// The largest residual, mm.
+    fn worst_mm(&self, problem: &Problem<'_>, spaces: &[Space]) -> f64 {
+        let of_patch = |p: usize| {
+            let residuals =
+                surface_fit::residuals(&spaces[p], &problem.data[p], &self.cells[p], &self.coefficients[p]);
+            residuals.iter().map(|r| r.1).fold(0.0, f64::max)
+        };
+        (0..spaces.len()).into_par_iter().map(of_patch).reduce(|| 0.0, f64::max)
     }
 
     /// Spaces with finer knots where edges gape or nodes are missed; none if nothing is asked.

@@ -12,7 +12,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// An area element below this fraction of the derivatives' squares is rounding.
-const DEGENERATE: f64 = 1e-12;
+const DEGENERATE: f64 = 1e-9;
 
 /// What one node on one face says of the result.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,12 +54,16 @@ pub fn at_nodes(
     matches.par_iter().map(one).collect()
 }
 
-/// Whether the normal of the derivatives `b` is turned against that of `a`. At a pole both are
-/// rounding and say nothing.
+/// The normal of two derivatives; zero at a pole, where only rounding is left of it.
+fn regular_normal(du: DVec3, dv: DVec3) -> DVec3 {
+    let normal = du.cross(dv);
+    let regular = normal.length() > DEGENERATE * (du.length_squared() + dv.length_squared());
+    if regular { normal } else { DVec3::ZERO }
+}
+
+/// Whether the normal of the derivatives `b` is turned against that of `a`.
 fn turned([au, av]: [DVec3; 2], [bu, bv]: [DVec3; 2]) -> bool {
-    let normal = au.cross(av);
-    let regular = normal.length() > DEGENERATE * (au.length_squared() + av.length_squared());
-    regular && bu.cross(bv).dot(normal) < 0.0
+    bu.cross(bv).dot(regular_normal(au, av)) < 0.0
 }
 
 /// Number of places on the faces where the new normal is turned against the old one.
@@ -111,7 +115,10 @@ fn angle_deg(hot: &Hot, joint: &Joint, normal: impl Fn(usize, f64, f64) -> DVec3
 
 /// Largest angle along each joint of the input, degrees.
 pub fn hot_angles_deg(hot: &Hot, brep: &Brep) -> Vec<f64> {
-    let normal = |p: usize, u: f64, v: f64| brep.surfaces[hot.patches[p].surface].derivatives(u, v).normal();
+    let normal = |p: usize, u: f64, v: f64| {
+        let d = brep.surfaces[hot.patches[p].surface].derivatives(u, v);
+        regular_normal(d.u, d.v)
+    };
     hot.joints.par_iter().map(|j| angle_deg(hot, j, normal)).collect()
 }
 
@@ -134,7 +141,7 @@ pub fn edges(
         let (first, last) = (faces.first().copied().unwrap_or(0), faces.last().copied().unwrap_or(0));
         let after = angle_deg(hot, joint, |p, u, v| {
             let [_, du, dv] = cold[p].first_derivatives(u, v);
-            du.cross(dv)
+            regular_normal(du, dv)
         });
         EdgeReport {
             index: index + 1,

@@ -35,7 +35,9 @@ impl Limit {
         let (dense, start) = (nodes / NODES_PER_POLE, patch.hot.poles().len());
         let roomy = start as f64 <= ROOM * dense as f64;
         let (poles, cells) = match patch.user_poles {
-            Some(own) if patch.own_poles && own * COARSE >= nodes => (OWN_GROWTH * own, dense),
+            Some(own) if patch.own_poles && own * COARSE >= nodes => {
+                (OWN_GROWTH * own, dense.min(OWN_GROWTH * patch.space.cells()))
+            }
             Some(_) if patch.own_poles || roomy => (dense, usize::MAX),
             _ => (usize::MAX, CELLS_PER_NODE * nodes),
         };

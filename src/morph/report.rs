@@ -76,7 +76,7 @@ pub struct FaceReport {
     pub rank_cut: usize,
     /// Knots inserted in both directions.
     pub knots_inserted: usize,
-    /// Whether the field holds this face still.
+    /// Whether the field or the user holds this face still.
     pub held: bool,
 }
 

@@ -46,12 +46,14 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     let mut seconds = Seconds::default();
     let mut warnings = field.warnings.clone();
     step(progress, "placing nodes on faces", 0.05)?;
-    let selected = select(brep, field, options, &mut warnings)?;
+    let mut selected = select(brep, field, options, &mut warnings)?;
+    let fixed = fixed_faces(&selected.hot, options)?;
+    hold_nodes(&mut selected, &fixed);
     seconds.associate = start.elapsed().as_secs_f64();
 
     step(progress, "fitting each face", 0.25)?;
     let clock = Instant::now();
-    let task = Task::new(&selected, options, &mut warnings)?;
+    let task = Task::new(&selected, fixed, options, &mut warnings)?;
     let fit = task.fit(&|_| true, &|stage, s| progress(stage, 0.3 + 0.4 * s))?;
     let cold = task.surfaces(&fit)?;
     let holdout = if options.holdout { Some(task.holdout(progress)?) } else { None };
@@ -97,6 +99,7 @@ pub struct Task<'a> {
     kinks: Vec<[Vec<f64>; 2]>,
     /// Angles along the joints of the input, degrees.
     pub hot_angles_deg: Vec<f64>,
+    tolerance_mm: f64,
     /// Faces that the field holds still.
     pub held: Vec<bool>,
     /// Faces that the user holds still.
@@ -104,11 +107,15 @@ pub struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(selected: &'a Selected, options: &Options, warnings: &mut Vec<String>) -> Result<Self> {
+    fn new(
+        selected: &'a Selected,
+        fixed: Vec<bool>,
+        options: &Options,
+        warnings: &mut Vec<String>,
+    ) -> Result<Self> {
         let hot = &selected.hot;
         let matches = &selected.association.matches[..];
         let displacements = &selected.nodes.displacements[..];
-        let fixed = fixed_faces(hot, options)?;
         let used: Vec<&Match> = matches.iter().filter(|m| !fixed[m.face as usize]).collect();
         let points: Vec<DVec3> = used.iter().map(|m| m.foot.point).collect();
         let moved: Vec<DVec3> = used.iter().map(|m| displacements[m.node as usize]).collect();
@@ -145,6 +152,7 @@ impl<'a> Task<'a> {
             ties,
             kinks: kinks(hot, &held),
             hot_angles_deg,
+            tolerance_mm: options.tolerance_mm,
             held,
             fixed,
         })
@@ -169,6 +177,7 @@ impl<'a> Task<'a> {
         let problem = Problem {
             hot: self.hot,
             data: &data,
+            tolerance_mm: self.tolerance_mm,
             affine: &self.local,
             ties: &self.ties,
             prescribed: &self.prescribed,
@@ -293,6 +302,14 @@ fn fixed_faces(hot: &Hot, options: &Options) -> Result<Vec<bool>> {
         }
     }
     Ok(fixed)
+}
+
+/// Takes the displacement from the nodes on fixed faces, those on their edges included: a
+/// neighbour that followed them would part from the fixed face.
+fn hold_nodes(selected: &mut Selected, fixed: &[bool]) {
+    for m in selected.association.matches.iter().filter(|m| fixed[m.face as usize]) {
+        selected.nodes.displacements[m.node as usize] = DVec3::ZERO;
+    }
 }
 
 /// Which faces the field holds.

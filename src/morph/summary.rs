@@ -67,6 +67,7 @@ pub fn summarise(
     let after = mass(hot, outcome.cold);
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
     warn(outcome, options, &figures, folded, &mut warnings);
+    warnings.extend(empty_spans(&faces));
     let results = matches.iter().zip(&figures).map(|(m, f)| NodeResult {
         id: nodes.ids[m.node as usize],
         face: m.face + 1,
@@ -153,6 +154,20 @@ fn inserted(before: &NurbsSurface, after: &NurbsSurface) -> usize {
     knots(after).saturating_sub(knots(before))
 }
 
+/// Says where most spans hold no node: there the mesh is coarser than the net of poles.
+fn empty_spans(faces: &[FaceReport]) -> Option<String> {
+    let sparse = || faces.iter().filter(|f| 2 * f.spans_filled > f.spans);
+    let (empty, all) = sparse().fold((0, 0), |(e, a), f| (e + f.spans_filled, a + f.spans));
+    let names: Vec<&str> = sparse().take(10).map(|f| f.name.as_str()).collect();
+    let more = if sparse().count() > names.len() { ", …" } else { "" };
+    (empty > 0).then(|| {
+        let names = names.join(", ");
+        format!(
+            "empty knot spans: {empty} of {all} on {names}{more}: their poles follow the regularisation alone"
+        )
+    })
+}
+
 /// Spans whose middle lies on the face or that hold a node of it, and how many of them hold none.
 fn spans(outcome: &Outcome<'_>, face: usize, own: &[super::associate::Match]) -> (usize, usize) {
     let f = &outcome.selected.hot.faces[face];
@@ -193,8 +208,10 @@ fn warn(
         ));
     }
     let faces = &outcome.selected.hot.faces;
-    let held: Vec<String> =
-        (0..faces.len()).filter(|f| outcome.task.held[*f]).map(|f| face_name(options, f)).collect();
+    let held: Vec<String> = (0..faces.len())
+        .filter(|f| outcome.task.held[*f] && !outcome.task.fixed[*f])
+        .map(|f| face_name(options, f))
+        .collect();
     if !held.is_empty() {
         warnings.push(format!(
             "the field holds {} still: the gradient jumps at their edges, and joints that were tangent \

@@ -12,6 +12,8 @@ pub struct Verdict {
     pub error: f64,
     /// Largest distance among an edge's curve and traces.
     pub gap: f64,
+    /// The same on the input.
+    pub gap_before: f64,
     /// Largest growth of the angle between the faces at a tangent edge.
     pub opened_deg: f64,
     /// Samples at which a normal is turned by a right angle or more against the field's.
@@ -45,6 +47,7 @@ pub fn judge(before: &Brep, after: &Brep, u: impl Fn(DVec3) -> DVec3) -> Verdict
     for (e, (a, b)) in old.joints.iter().zip(&new.joints).enumerate() {
         let (gap, error) = along(&after, &new, (a, b), &u);
         verdict.gap = verdict.gap.max(gap);
+        verdict.gap_before = verdict.gap_before.max(along(before, &old, (a, a), |_| DVec3::ZERO).0);
         verdict.error = verdict.error.max(error);
         verdict.beyond_tolerance = verdict.beyond_tolerance.max(gap - new.topology.edges[e].tolerance);
         let [was, is] = [angle_deg(before, &old, a), angle_deg(&after, &new, b)];
@@ -71,7 +74,7 @@ fn assert_same_topology(old: &Hot, new: &Hot) {
 }
 
 /// Largest gap along an edge, and largest error of its curve.
-fn along(after: &Brep, new: &Hot, (a, b): (&Joint, &Joint), u: impl Fn(DVec3) -> DVec3) -> (f64, f64) {
+fn along(brep: &Brep, hot: &Hot, (a, b): (&Joint, &Joint), u: impl Fn(DVec3) -> DVec3) -> (f64, f64) {
     let (mut gap, mut error) = (0.0f64, 0.0f64);
     for k in 0..=150 {
         let t = b.parameter(f64::from(k) / 150.0);
@@ -81,7 +84,7 @@ fn along(after: &Brep, new: &Hot, (a, b): (&Joint, &Joint), u: impl Fn(DVec3) ->
         }
         points.extend(b.sides.iter().map(|side| {
             let uv = side.pcurve.point(t);
-            after.surfaces[surface(new, side.face)].point(uv.x, uv.y)
+            brep.surfaces[surface(hot, side.face)].point(uv.x, uv.y)
         }));
         for p in &points {
             gap = points.iter().map(|q| (*p - *q).length()).fold(gap, f64::max);
@@ -95,13 +98,15 @@ fn angle_deg(brep: &Brep, hot: &Hot, joint: &Joint) -> f64 {
     let [a, b] = &joint.sides[..] else { return 0.0 };
     let normal = |side: &bladesmith::morph::hot::Side, t: f64| {
         let uv = side.pcurve.point(t);
-        let n = brep.surfaces[surface(hot, side.face)].derivatives(uv.x, uv.y).normal();
+        let d = brep.surfaces[surface(hot, side.face)].derivatives(uv.x, uv.y);
+        let pole = d.normal().length() < 1e-9 * (d.u.length_squared() + d.v.length_squared());
+        let n = if pole { DVec3::ZERO } else { d.normal() };
         if hot.faces[side.face].reversed { -n } else { n }
     };
     let at = |k: u32| {
         let t = joint.parameter(f64::from(k) / 150.0);
         let (x, y) = (normal(a, t), normal(b, t));
-        let vanishes = x.length() < 1e-9 || y.length() < 1e-9;
+        let vanishes = x == DVec3::ZERO || y == DVec3::ZERO;
         if vanishes { 0.0 } else { x.cross(y).length().atan2(x.dot(y)).to_degrees() }
     };
     (0..=150).map(at).fold(0.0, f64::max)

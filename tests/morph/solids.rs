@@ -47,7 +47,7 @@ fn on_edges(hot: &Hot, h: f64) -> Vec<DVec3> {
             let at = |k: usize| curve.point(joint.parameter(k as f64 / 64.0));
             (at(k + 1) - at(k)).length()
         };
-        let n = ((0..64).map(chord).sum::<f64>() / h).round().max(2.0) as usize;
+        let n = ((0..64).map(chord).sum::<f64>() / h).round().max(4.0) as usize;
         out.extend((1..n).map(|k| curve.point(joint.parameter(k as f64 / n as f64))));
     }
     out

@@ -263,6 +263,18 @@ class Info(InFolder):
         for word in ("nodes 2425", "1250 C3D10", "step 1", "step 2", "largest displacement 0.2"):
             self.assertIn(word, done.stdout)
 
+    def test_a_reader_that_goes_away_is_no_error_to_read(self):
+        process = subprocess.Popen(
+            [str(common.LAUNCHER), "info", str(packed("base.step"))],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        process.stdout.close()
+        self.assertEqual(process.stderr.read(), "")
+        process.stderr.close()
+        self.assertEqual(process.wait(), 1)
+
     def test_other_files_are_refused(self):
         self.assert_refused(bladesmith("info", common.awkward("not_frd")), "not_frd.frd")
         self.assert_refused(bladesmith("info", "none.frd"), "none.frd")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import common
 from common import Part as FreeCADPart
+from freecad import bladesmith
 from freecad.bladesmith import native
 from freecad.bladesmith.model import MorphOptions as ModelOptions
 from freecad.bladesmith.native import api, errors
@@ -42,6 +43,9 @@ class Header(unittest.TestCase):
         expected = [getattr(api.MorphOptions, name).offset for name in fields]
         expected.append(ctypes.sizeof(api.MorphOptions))
         self.assertEqual([int(line) for line in printed.stdout.split()], expected)
+
+    def test_library_and_package_are_of_one_release(self):
+        self.assertEqual(native.library_version(), bladesmith.__version__)
 
     def test_every_setting_of_the_model_is_one_of_the_core(self):
         options, _kept = api._options(api._core(), ModelOptions(factor=-1, threads=2).settings())

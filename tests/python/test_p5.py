@@ -43,7 +43,7 @@ class Awkward(unittest.TestCase):
             self.assertGreater(inside, 9, f"Face{index} has no samples")
 
     def assert_reproduced(self, errors):
-        """Closely on the whole, and everywhere within the tolerance that is asked for by default."""
+        """Closely on the whole, and everywhere within the default tolerance."""
         self.assertLess(mean(errors), 2e-5)
         self.assertLess(max(errors), 1e-3)
 

@@ -52,6 +52,15 @@ class NamesAndColours(InFolder):
         self.assertEqual(found.face_names, names)
         self.assertEqual(found.face_colours, colours)
 
+    def test_faces_of_a_cavity_have_names_and_colours_too(self):
+        hollow = Part.makeBox(4, 4, 4).cut(Part.makeBox(1, 1, 1, vector(1, 1, 1))).Solids[0]
+        names = [f"face {i}" for i in range(len(hollow.Faces))]
+        colours = [RED if i % 2 else None for i in range(len(names))]
+        attributes = SolidAttributes("hollow", YELLOW, names, colours, [])
+        found = step.read(str(self.written(hollow, attributes))).solids[0]
+        self.assertEqual((found.name, found.colour), ("hollow", YELLOW))
+        self.assertEqual((found.face_names, found.face_colours), (names, colours))
+
     def test_faces_are_those_of_the_text_in_the_same_order(self):
         """Each face's name is the number of the entity whose first vertex lies on it."""
         for name in ("base.step", "sphere.step", "two_solids.step"):

@@ -26,7 +26,9 @@ def main(arguments: Optional[list[str]] = None) -> int:
     interruption.install()
     options = _parser().parse_args(arguments)
     try:
-        return options.run(options)
+        code = options.run(options)
+        sys.stdout.flush()
+        return code
     except KeyboardInterrupt:
         return _failed(Cancelled("cancelled; nothing was written"))
     except BladesmithError as error:

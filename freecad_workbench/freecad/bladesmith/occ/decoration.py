@@ -6,7 +6,7 @@ from datetime import datetime, timezone
 from .attributes import Colour, SolidAttributes, shell_faces
 from .part21 import Part21, Part21Error, edited, encode, scan
 
-_SOLID = "MANIFOLD_SOLID_BREP"
+_SOLIDS = ("MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS")
 
 
 def header_time() -> str:
@@ -31,7 +31,7 @@ def decorated(text: str, product: str, attributes: SolidAttributes, tool: str) -
     edits = _header_edits(file, product, tool)
     names = list(zip(faces, attributes.face_names))
     names += [(n, product) for n in file.numbers["PRODUCT"]]
-    names += [(n, attributes.name) for n in file.numbers[_SOLID]]
+    names.append((_solid(file), attributes.name))
     edits += [(*file.first_string(n), encode(name)) for n, name in names if name]
     edits += _product_identifier_edits(file, product)
     styles = _styles(file, attributes, faces)
@@ -39,11 +39,15 @@ def decorated(text: str, product: str, attributes: SolidAttributes, tool: str) -
     return edited(text, edits)
 
 
+def _solid(file: Part21) -> int:
+    found = [number for keyword in _SOLIDS for number in file.numbers[keyword]]
+    if len(found) != 1:
+        raise Part21Error(f"expected one solid, found {len(found)}")
+    return found[0]
+
+
 def _faces(file: Part21) -> list[int]:
-    solids = file.numbers[_SOLID] + file.numbers["BREP_WITH_VOIDS"]
-    if len(solids) != 1:
-        raise Part21Error(f"expected one solid, found {len(solids)}")
-    parameters = file.record(solids[0]).parameters
+    parameters = file.record(_solid(file)).parameters
     voids = parameters[2] if len(parameters) > 2 else []
     return [face for shell in [parameters[1], *voids] for face in shell_faces(file, shell)]
 
@@ -86,8 +90,7 @@ class _Appender:
 
 def _styles(file: Part21, attributes: SolidAttributes, faces: list[int]) -> list[str]:
     """Styled items for the solid's colour and for faces that differ from it."""
-    solid = (file.numbers[_SOLID] + file.numbers["BREP_WITH_VOIDS"])[0]
-    coloured = [(solid, attributes.colour)] if attributes.colour else []
+    coloured = [(_solid(file), attributes.colour)] if attributes.colour else []
     coloured += [
         (face, colour)
         for face, colour in zip(faces, attributes.face_colours)
