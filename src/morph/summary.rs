@@ -5,7 +5,7 @@ use super::mass::{Mass, mass};
 use super::measure::{self, NodeFigures, spread};
 use super::options::Options;
 use super::rebuild::{NewEdge, largest_tolerance_mm};
-use super::report::{Change, FaceReport, Input, Report, Seconds, SolidReport, Tool};
+use super::report::{Change, EdgeReport, FaceReport, Input, Report, Seconds, SolidReport, Tool};
 use super::run::Task;
 use super::select::Selected;
 use super::surface_fit::Cells;
@@ -14,6 +14,9 @@ use crate::brep::Brep;
 use crate::error::Result;
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
+
+/// A tangent joint that opens by more than this is named, degrees.
+const OPENED_DEG: f64 = 0.1;
 
 /// Everything that a report speaks of.
 pub struct Outcome<'a> {
@@ -67,6 +70,7 @@ pub fn summarise(
     let after = mass(hot, outcome.cold);
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
     warn(outcome, options, &figures, folded, &mut warnings);
+    warn_of_joints(&edges, options.tolerance_mm, &mut warnings);
     warnings.extend(empty_spans(&faces));
     let results = matches.iter().zip(&figures).map(|(m, f)| NodeResult {
         id: nodes.ids[m.node as usize],
@@ -214,9 +218,35 @@ fn warn(
         .collect();
     if !held.is_empty() {
         warnings.push(format!(
-            "the field holds {} still: the gradient jumps at their edges, and joints that were tangent \
-             there open by what the field asks",
+            "the field holds {} still: they stay where they are, and the gradient jumps at their edges",
             held.join(", ")
         ));
+    }
+}
+
+/// Names joints that open or gape.
+fn warn_of_joints(edges: &[EdgeReport], tolerance_mm: f64, warnings: &mut Vec<String>) {
+    let opened = |e: &EdgeReport| e.angle_deg.after - e.angle_deg.before;
+    let list = |chosen: &[&EdgeReport]| {
+        let named: Vec<String> = chosen
+            .iter()
+            .take(10)
+            .map(|e| format!("{} (faces {} and {})", e.index, e.faces[0], e.faces[1]))
+            .collect();
+        format!("{}{}", named.join(", "), if chosen.len() > named.len() { ", …" } else { "" })
+    };
+    for (held, what) in [(true, "beside held faces, as the field asks"), (false, "elsewhere")] {
+        let chosen: Vec<&EdgeReport> =
+            edges.iter().filter(|e| e.tangent && e.held == held && opened(e) > OPENED_DEG).collect();
+        if !chosen.is_empty() {
+            let most = chosen.iter().map(|e| opened(e)).fold(0.0, f64::max);
+            warnings.push(format!("tangent joints open by up to {most:.2}° {what}: edges {}", list(&chosen)));
+        }
+    }
+    let gaping: Vec<&EdgeReport> =
+        edges.iter().filter(|e| e.gap_mm.after > tolerance_mm.max(2.0 * e.gap_mm.before)).collect();
+    if !gaping.is_empty() {
+        let most = gaping.iter().map(|e| e.gap_mm.after).fold(0.0, f64::max);
+        warnings.push(format!("edges gape by up to {most:.1e} mm: {}", list(&gaping)));
     }
 }

@@ -30,10 +30,11 @@ def print_summary(options: argparse.Namespace, report: Report) -> None:
     if edge:
         gap = edge.gap_mm
         print(f"  largest gap         {gap.after:.1e} mm, before {gap.before:.1e}")
-    edge = report.most_opened_edge()
-    if edge:
-        angle = edge.angle_deg
-        print(f"  tangent edges       at most {angle.after - angle.before:+.4f}° of change")
+    for held, name in ((False, "tangent edges"), (True, "beside held faces")):
+        edge = report.most_opened_edge(held)
+        if edge:
+            angle = edge.angle_deg
+            print(f"  {name:<19} at most {angle.after - angle.before:+.4f}° of change")
     volume = report.volume_mm3
     print(f"  volume              {volume.before:.6g} -> {volume.after:.6g} mm³")
     print(f"  time                {report.seconds['total']:.2f} s")

@@ -145,9 +145,9 @@ class Report:
         """The edge with the largest gap afterwards."""
         return max(self.edges, key=lambda edge: edge.gap_mm.after, default=None)
 
-    def most_opened_edge(self) -> Optional[Edge]:
-        """The tangent edge whose angle grew most; None without tangent edges."""
-        tangent = [edge for edge in self.edges if edge.tangent]
+    def most_opened_edge(self, held: bool) -> Optional[Edge]:
+        """The tangent edge, beside held faces or elsewhere, whose angle grew most; or None."""
+        tangent = [edge for edge in self.edges if edge.tangent and edge.held == held]
         return max(tangent, key=lambda e: e.angle_deg.after - e.angle_deg.before, default=None)
 
     def misses(self, tolerance_mm: float) -> bool:
