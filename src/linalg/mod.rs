@@ -4,4 +4,4 @@ pub mod banded;
 pub mod sparse;
 
 pub use banded::{BandedCholesky, BandedLu};
-pub use sparse::{SparseCholesky, SymmetricBuilder};
+pub use sparse::{SparseCholesky, SymmetricEntries, SymmetricMatrix};

@@ -9,6 +9,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// How the factorisation splits its work. A fixed number keeps every bit the same whatever the
 /// number of threads that carry it out.
@@ -16,12 +17,14 @@ fn splits() -> Par {
     Par::rayon(2)
 }
 
-/// Collects entries of a symmetric matrix, in any order, repeated ones added up.
-#[derive(Debug, Clone)]
-pub struct SymmetricBuilder {
-    n: usize,
-    entries: Vec<(u32, u32, f64)>,
+/// Something that can list the entries of a symmetric matrix, each time the same in the same order.
+pub trait SymmetricEntries {
+    /// Visits (i, j, value) for one of (i, j) and (j, i), in any order; repeated ones add up.
+    fn for_each(&self, visit: impl FnMut(usize, usize, f64));
 }
+
+/// Columns that one task sorts.
+const COLUMNS: usize = 1024;
 
 /// A symmetric matrix as its lower triangle by columns.
 #[derive(Debug, Clone)]
@@ -32,68 +35,35 @@ pub struct SymmetricMatrix {
     values: Vec<f64>,
 }
 
-impl SymmetricBuilder {
-    /// An empty matrix of order `n`.
-    pub fn new(n: usize) -> Self {
-        Self { n, entries: Vec::new() }
-    }
-
-    /// Makes room for `count` more entries.
-    pub fn reserve(&mut self, count: usize) {
-        self.entries.reserve(count);
-    }
-
-    /// Adds `value` at (i, j) and, for i ≠ j, at (j, i).
-    pub fn add(&mut self, i: usize, j: usize, value: f64) {
-        let (row, column) = if i >= j { (i, j) } else { (j, i) };
-        self.entries.push((column as u32, row as u32, value));
-    }
-
-    /// Sorts and sums the entries.
-    pub fn build(self) -> SymmetricMatrix {
-        let n = self.n;
-        let mut starts = vec![0usize; n + 1];
-        for e in &self.entries {
-            starts[e.0 as usize + 1] += 1;
-        }
-        for j in 0..n {
-            starts[j + 1] += starts[j];
-        }
-        let mut fill = starts.clone();
-        let mut bucket = vec![(0u32, 0.0); self.entries.len()];
-        for (column, row, value) in self.entries {
-            let at = &mut fill[column as usize];
-            bucket[*at] = (row, value);
-            *at += 1;
-        }
-        let (mut rows, mut values) = (Vec::with_capacity(bucket.len()), Vec::with_capacity(bucket.len()));
-        let mut place = vec![usize::MAX; n];
-        let mut out_starts = vec![0usize; n + 1];
-        let mut column = Vec::new();
-        for j in 0..n {
-            column.clear();
-            for &(row, value) in &bucket[starts[j]..starts[j + 1]] {
-                let slot = &mut place[row as usize];
-                if *slot == usize::MAX {
-                    *slot = column.len();
-                    column.push((row, value));
-                } else {
-                    column[*slot].1 += value;
-                }
-            }
-            for &(row, _) in &column {
-                place[row as usize] = usize::MAX;
-            }
-            column.sort_unstable_by_key(|e: &(u32, f64)| e.0);
-            rows.extend(column.iter().map(|e| e.0 as usize));
-            values.extend(column.iter().map(|e| e.1));
-            out_starts[j + 1] = rows.len();
-        }
-        SymmetricMatrix { n, starts: out_starts, rows, values }
-    }
-}
-
 impl SymmetricMatrix {
+    /// Sorts and sums the entries of a matrix of order `n`.
+    pub fn new(n: usize, entries: &impl SymmetricEntries) -> Self {
+        // Listing the entries twice is cheaper than keeping them all.
+        let mut ends = vec![0usize; n + 1];
+        entries.for_each(|i, j, _| ends[i.min(j) + 1] += 1);
+        for j in 0..n {
+            ends[j + 1] += ends[j];
+        }
+        let starts = ends.clone();
+        let mut bucket = vec![(0u32, 0.0); starts[n]];
+        entries.for_each(|i, j, value| {
+            let at = &mut ends[i.min(j)];
+            bucket[*at] = (i.max(j) as u32, value);
+            *at += 1;
+        });
+        let tasks: Vec<_> = (0..n).step_by(COLUMNS).map(|first| first..n.min(first + COLUMNS)).collect();
+        let parts: Vec<_> = tasks.into_par_iter().map(|columns| summed(&bucket, &starts, columns)).collect();
+        let total = parts.iter().map(|p| p.rows.len()).sum();
+        let (mut rows, mut values) = (Vec::with_capacity(total), Vec::with_capacity(total));
+        let mut starts = vec![0usize];
+        for part in parts {
+            starts.extend(part.ends.iter().map(|end| rows.len() + end));
+            rows.extend(part.rows);
+            values.extend(part.values);
+        }
+        Self { n, starts, rows, values }
+    }
+
     /// Order.
     pub fn order(&self) -> usize {
         self.n
@@ -103,6 +73,40 @@ impl SymmetricMatrix {
     pub fn stored(&self) -> usize {
         self.values.len()
     }
+}
+
+/// Some columns of a matrix.
+#[derive(Default)]
+struct Columns {
+    ends: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// Sorts and sums the bucketed entries of some columns.
+fn summed(bucket: &[(u32, f64)], starts: &[usize], columns: std::ops::Range<usize>) -> Columns {
+    let mut out = Columns::default();
+    let mut column: Vec<(u32, f64)> = Vec::new();
+    for j in columns {
+        column.clear();
+        column.extend_from_slice(&bucket[starts[j]..starts[j + 1]]);
+        // Stable, so that equal rows are summed in the order in which they were listed.
+        column.sort_by_key(|e| e.0);
+        for &(row, value) in &column {
+            let first = out.ends.last().copied().unwrap_or(0);
+            match out.values.last_mut() {
+                Some(last) if out.rows.len() > first && out.rows[out.rows.len() - 1] == row as usize => {
+                    *last += value;
+                }
+                _ => {
+                    out.rows.push(row as usize);
+                    out.values.push(value);
+                }
+            }
+        }
+        out.ends.push(out.rows.len());
+    }
+    out
 }
 
 /// The Cholesky factor of a sparse matrix.
@@ -183,23 +187,40 @@ impl SparseCholesky {
 mod tests {
     use super::*;
 
+    type Entries = Vec<(usize, usize, f64)>;
+
+    impl SymmetricEntries for Entries {
+        fn for_each(&self, mut visit: impl FnMut(usize, usize, f64)) {
+            self.iter().for_each(|&(i, j, value)| visit(i, j, value));
+        }
+    }
+
     /// A five-point Laplacian plus one, which couples all unknowns.
     fn grid(m: usize) -> SymmetricMatrix {
-        let mut b = SymmetricBuilder::new(m * m);
+        let mut entries = Entries::new();
         for i in 0..m {
             for j in 0..m {
                 let k = i * m + j;
-                b.add(k, k, 5.0);
+                entries.push((k, k, 5.0));
                 if j + 1 < m {
-                    b.add(k, k + 1, -1.0);
+                    entries.push((k, k + 1, -1.0));
                 }
                 if i + 1 < m {
-                    b.add(k + m, k, -0.5);
-                    b.add(k, k + m, -0.5);
+                    entries.push((k + m, k, -0.5));
+                    entries.push((k, k + m, -0.5));
                 }
             }
         }
-        b.build()
+        SymmetricMatrix::new(m * m, &entries)
+    }
+
+    #[test]
+    fn entries_are_sorted_and_summed() {
+        let entries = vec![(2, 0, 1.0), (1, 1, 4.0), (0, 2, 0.5), (0, 0, 3.0), (0, 1, 2.0), (2, 2, 7.0)];
+        let matrix = SymmetricMatrix::new(3, &entries);
+        assert_eq!(matrix.starts, [0, 3, 4, 5]);
+        assert_eq!(matrix.rows, [0, 1, 2, 1, 2]);
+        assert_eq!(matrix.values, [3.0, 2.0, 1.5, 4.0, 7.0]);
     }
 
     #[test]
@@ -226,11 +247,8 @@ mod tests {
 
     #[test]
     fn refuses_an_indefinite_matrix() {
-        let mut b = SymmetricBuilder::new(2);
-        b.add(0, 0, 1.0);
-        b.add(1, 0, 2.0);
-        b.add(1, 1, 1.0);
-        let error = SparseCholesky::new(&b.build()).unwrap_err().to_string();
+        let entries = vec![(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)];
+        let error = SparseCholesky::new(&SymmetricMatrix::new(2, &entries)).unwrap_err().to_string();
         assert!(error.contains("order 2"), "{error}");
     }
 

@@ -52,7 +52,7 @@ pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
                 let last = apart.take(NEIGHBOUR).last().unwrap_or(0.0);
                 last.sqrt()
             };
-            own.iter().map(nth).collect()
+            own.par_iter().map(nth).collect()
         })
         .collect();
     per_face.concat()

@@ -118,7 +118,8 @@ impl Hot {
                 side.patch = patch_of_face[side.face];
             }
         }
-        let patches = windows.into_par_iter().map(|w| w.patch(brep)).collect::<Result<Vec<_>>>()?;
+        let patches =
+            windows.into_par_iter().with_max_len(1).map(|w| w.patch(brep)).collect::<Result<Vec<_>>>()?;
         let faces = (0..topology.faces.len())
             .into_par_iter()
             .map(|f| hot_face(&topology, &joints, &patches, patch_of_face[f], f))

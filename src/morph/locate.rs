@@ -86,7 +86,7 @@ fn add_cells(patch: usize, surface: &NurbsSurface, us: &[f64], vs: &[f64], out: 
         h
     };
     let (hu, hv) = (half(us), half(vs));
-    let grid: Vec<DVec3> = hu.iter().flat_map(|&u| hv.iter().map(move |&v| surface.point(u, v))).collect();
+    let grid = surface.points_on_grid(&hu, &hv);
     let at = |i: usize, j: usize| grid[i * hv.len() + j];
     for i in (0..hu.len() - 1).step_by(2) {
         for j in (0..hv.len() - 1).step_by(2) {

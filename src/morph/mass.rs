@@ -7,8 +7,8 @@
 
 use super::hot::{Hot, Joint, Side};
 use super::pieces::{between_knots, for_quadrature};
-use crate::nurbs::NurbsSurface;
-use glam::{DVec2, DVec3};
+use crate::nurbs::{BasisTable, IsoLine, NurbsSurface};
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Gauss-Legendre points and weights on (0, 1).
@@ -40,11 +40,11 @@ pub fn mass(hot: &Hot, surfaces: &[NurbsSurface]) -> Mass {
     sides.sort_by_key(|(_, s)| s.face);
     // Moments about a point of the part lose less to cancellation than about the origin.
     let origin = surfaces.first().map_or(DVec3::ZERO, |s| s.poles()[0]);
+    let columns: Vec<Columns> =
+        surfaces.iter().zip(&hot.patches).map(|(s, p)| Columns::new(s, p.window[0].x)).collect();
     let parts: Vec<Integrals> = sides
         .par_iter()
-        .map(|(joint, side)| {
-            along_side(joint, side, &surfaces[side.patch], hot.patches[side.patch].window[0].x, origin)
-        })
+        .map(|(joint, side)| along_side(joint, side, &surfaces[side.patch], &columns[side.patch], origin))
         .collect();
     let mut faces = vec![[0.0; 6]; hot.faces.len()];
     for ((_, side), part) in sides.iter().zip(parts) {
@@ -66,59 +66,77 @@ pub fn mass(hot: &Hot, surfaces: &[NurbsSurface]) -> Mass {
     Mass { area: total[1], volume: total[2], centroid: origin + moments / total[2] }
 }
 
-/// `∮ F dv` along one pcurve, with `F` the primitive in `u` from `u_first` on.
-fn along_side(joint: &Joint, side: &Side, surface: &NurbsSurface, u_first: f64, origin: DVec3) -> Integrals {
+/// `∮ F dv` along one pcurve, with `F` the primitive in `u` from the first of the `columns` on.
+fn along_side(
+    joint: &Joint,
+    side: &Side,
+    surface: &NurbsSurface,
+    columns: &Columns,
+    origin: DVec3,
+) -> Integrals {
     let (ku, kv) = (surface.knots_u(), surface.knots_v());
-    let breaks = ku.breaks();
     let mut sum = [0.0; 6];
+    let mut line: Option<IsoLine<'_, 2>> = None;
     let pieces = for_quadrature(joint, &side.pcurve, between_knots(joint, &[(side, ku, kv)]));
     for w in pieces.windows(2) {
         for (x, weight) in GAUSS {
             let t = joint.parameter(w[0] + x * (w[1] - w[0]));
             let [uv, along, _] = side.pcurve.derivatives(t);
             let dv = along.y * weight * (w[1] - w[0]) * (joint.range[1] - joint.range[0]);
-            if dv != 0.0 {
-                add_line(
-                    surface,
-                    &breaks,
-                    u_first,
-                    uv,
-                    if side.reversed { -dv } else { dv },
-                    origin,
-                    &mut sum,
-                );
+            if dv == 0.0 {
+                continue;
             }
+            let line = line.get_or_insert_with(|| IsoLine::new(surface, uv.y));
+            line.move_to(uv.y);
+            let along = columns.integral(line, uv.x, origin);
+            let dv = if side.reversed { -dv } else { dv };
+            sum.iter_mut().zip(along).for_each(|(s, a)| *s += dv * a);
         }
     }
     sum
 }
 
-/// Adds `dv · ∫ f du` from `u_first` to `uv.x` at `v = uv.y`.
-fn add_line(
-    surface: &NurbsSurface,
-    breaks: &[f64],
-    u_first: f64,
-    uv: DVec2,
-    dv: f64,
-    origin: DVec3,
-    sum: &mut Integrals,
-) {
-    let mut a = u_first;
-    let mut add = |a: f64, b: f64| {
-        for (x, weight) in GAUSS {
-            let d = surface.first_derivatives(a + x * (b - a), uv.y);
-            let (r, n) = (d[0] - origin, d[1].cross(d[2]) * (weight * (b - a) * dv));
-            sum[0] += weight * (b - a) * dv;
-            sum[1] += d[1].cross(d[2]).length() * (weight * (b - a) * dv);
-            sum[2] += r.dot(n) / 3.0;
-            for k in 0..3 {
-                sum[3 + k] += 0.5 * r[k] * r[k] * n[k];
+/// Gauss points in `u` for all lines of constant `v` of a patch.
+struct Columns {
+    /// The start of integration and the breaks beyond it.
+    breaks: Vec<f64>,
+    table: BasisTable<2>,
+}
+
+impl Columns {
+    fn new(surface: &NurbsSurface, first: f64) -> Self {
+        let mut breaks = vec![first];
+        breaks.extend(surface.knots_u().breaks().into_iter().filter(|&b| b > first));
+        let points = |w: &[f64]| GAUSS.map(|(x, _)| w[0] + x * (w[1] - w[0]));
+        let points: Vec<f64> = breaks.windows(2).flat_map(points).collect();
+        Self { table: BasisTable::new(surface.knots_u(), &points), breaks }
+    }
+
+    /// `∫ f du` from the first break to `last` along a line.
+    fn integral(&self, line: &IsoLine<'_, 2>, last: f64, origin: DVec3) -> Integrals {
+        let mut sum = [0.0; 6];
+        let whole = self.breaks[1..].partition_point(|&b| b < last);
+        for span in 0..whole {
+            let length = self.breaks[span + 1] - self.breaks[span];
+            for (k, (_, weight)) in GAUSS.iter().enumerate() {
+                add(&line.jet(&self.table, span * GAUSS.len() + k), weight * length, origin, &mut sum);
             }
         }
-    };
-    for &b in breaks.iter().filter(|&&b| b > u_first && b < uv.x) {
-        add(a, b);
-        a = b;
+        let (start, length) = (self.breaks[whole], last - self.breaks[whole]);
+        for (x, weight) in GAUSS {
+            add(&line.jet_at(start + x * length), weight * length, origin, &mut sum);
+        }
+        sum
     }
-    add(a, uv.x);
+}
+
+/// Adds the integrands of one point.
+fn add(jet: &[[DVec3; 2]; 2], weight: f64, origin: DVec3, sum: &mut Integrals) {
+    let (r, n) = (jet[0][0] - origin, jet[1][0].cross(jet[0][1]) * weight);
+    sum[0] += weight;
+    sum[1] += n.length() * weight.signum();
+    sum[2] += r.dot(n) / 3.0;
+    for k in 0..3 {
+        sum[3 + k] += 0.5 * r[k] * r[k] * n[k];
+    }
 }

@@ -98,8 +98,7 @@ pub fn reknot(nurbs: &NurbsSurface, space: &Space) -> Result<NurbsSurface> {
         return Ok(nurbs.clone());
     }
     let (cu, cv) = (Collocation::new(&ku)?, Collocation::new(&kv)?);
-    let mut poles: Vec<DVec3> =
-        cu.points().iter().flat_map(|&u| cv.points().iter().map(move |&v| nurbs.point(u, v))).collect();
+    let mut poles = nurbs.points_on_grid(cu.points(), cv.points());
     Collocation::poles_tensor(&cu, &cv, &mut poles);
     NurbsSurface::new(ku, kv, poles, None)
 }

@@ -63,6 +63,16 @@ impl Space {
         self.ku.len() * self.kv.len()
     }
 
+    /// Degrees along u and v.
+    pub fn degrees(&self) -> [usize; 2] {
+        [self.ku.degree(), self.kv.degree()]
+    }
+
+    /// Number of poles that a point sees.
+    pub fn order(&self) -> usize {
+        (self.ku.degree() + 1) * (self.kv.degree() + 1)
+    }
+
     /// Number of cells (non-empty knot spans).
     pub fn cells(&self) -> usize {
         (self.ku.breaks().len() - 1) * (self.kv.breaks().len() - 1)
@@ -111,7 +121,12 @@ impl Space {
 
     /// The value at (u, v) as a functional.
     pub fn value(&self, uv: DVec2) -> Row {
-        self.combine(uv, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        let (su, sv) = (self.ku.span(uv.x), self.kv.span(uv.y));
+        let (mut nu, mut nv) = ([0.0; W], [0.0; W]);
+        self.ku.basis(su, uv.x, &mut nu);
+        self.kv.basis(sv, uv.y, &mut nv);
+        let c = nu.map(|a| nv.map(|b| a * b));
+        Row { i0: su - self.ku.degree(), j0: sv - self.kv.degree(), c }
     }
 
     /// `w0 D + w1 D_u + w2 D_v + w3 D_uu + w4 D_uv + w5 D_vv` at (u, v) as a functional.
@@ -234,19 +249,26 @@ impl NormalEquations {
 
     /// Adds `weight · row ⊗ row` to the matrix.
     pub fn add_square(&mut self, row: &Row, weight: f64) {
-        let (p, q) = (self.p, self.q);
+        // Known sizes let the compiler unroll: most spaces are bicubic.
+        match (self.p, self.q) {
+            (3, 3) => self.add_square_of(3, 3, row, weight),
+            (5, 5) => self.add_square_of(5, 5, row, weight),
+            (p, q) => self.add_square_of(p, q, row, weight),
+        }
+    }
+
+    #[inline(always)]
+    fn add_square_of(&mut self, p: usize, q: usize, row: &Row, weight: f64) {
         let width = 2 * q + 1;
         let size = (p + 1) * width;
         for a in 0..=p {
-            for b in 0..=q {
+            let at = ((row.i0 + a) * self.columns + row.j0) * size;
+            let poles = self.stencil[at..at + (q + 1) * size].chunks_exact_mut(size);
+            for (b, stencil) in poles.enumerate() {
                 let ca = weight * row.c[a][b];
-                if ca == 0.0 {
-                    continue;
-                }
-                let at = ((row.i0 + a) * self.columns + row.j0 + b) * size;
                 for a2 in a..=p {
-                    let line = at + (a2 - a) * width + q - b;
-                    for (s, c) in self.stencil[line..=line + q].iter_mut().zip(&row.c[a2]) {
+                    let line = (a2 - a) * width + q - b;
+                    for (s, c) in stencil[line..=line + q].iter_mut().zip(&row.c[a2][..=q]) {
                         *s += ca * c;
                     }
                 }

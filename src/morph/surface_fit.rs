@@ -127,11 +127,13 @@ fn add_bending(space: &Space, hot: &NurbsSurface, cells: &Cells, equations: &mut
         breaks.windows(2).flat_map(span).map(|(t, w)| (t, w, Line::at(k, t))).collect()
     };
     let (gu, gv) = (gauss(&space.ku, &cells.us), gauss(&space.kv, &cells.vs));
+    let parameters = |gauss: &[(f64, f64, Line)]| gauss.iter().map(|g| g.0).collect::<Vec<_>>();
+    let on_hot = hot.derivatives_on_grid(&parameters(&gu), &parameters(&gv));
     let (per_u, per_v) = (gu.len() / (cells.us.len() - 1), gv.len() / (cells.vs.len() - 1));
-    for (i, (u, wu, lu)) in gu.iter().enumerate() {
-        for (j, (v, wv, lv)) in gv.iter().enumerate() {
+    for (i, (_, wu, lu)) in gu.iter().enumerate() {
+        for (j, (_, wv, lv)) in gv.iter().enumerate() {
             let h = cells.spacing[(i / per_u) * (cells.vs.len() - 1) + j / per_v].max(1e-6);
-            let Some((rows, area)) = bending(&hot.derivatives(*u, *v)) else { continue };
+            let Some((rows, area)) = bending(&on_hot[i * gv.len() + j]) else { continue };
             let weight = CUT_OFF.powi(4) * h * h * area * wu * wv;
             for w in rows {
                 equations.add_square(&combine(lu, lv, w), weight);

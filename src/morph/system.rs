@@ -6,8 +6,9 @@
 
 use super::space::{NormalEquations, Row, Space};
 use crate::error::Result;
-use crate::linalg::{SparseCholesky, SymmetricBuilder};
+use crate::linalg::{SparseCholesky, SymmetricEntries, SymmetricMatrix};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Marks a coefficient that is prescribed.
 pub const PRESCRIBED: u32 = u32::MAX;
@@ -44,7 +45,8 @@ pub struct Link {
 /// # Errors
 /// [`crate::Error::Numerics`] where the system is singular.
 pub fn solve(blocks: &[Block], links: &[Link], unknowns: usize) -> Result<Vec<Vec<DVec3>>> {
-    let factor = SparseCholesky::new(&assemble(blocks, links, unknowns))?;
+    let matrix = SymmetricMatrix::new(unknowns, &Assembly::new(blocks, links));
+    let factor = SparseCholesky::new(&matrix)?;
     let mut x = vec![DVec3::ZERO; unknowns];
     for block in blocks {
         scatter(block, &block.equations.rhs, &mut x);
@@ -96,94 +98,96 @@ fn for_each_pole(block: &Block, row: &Row, mut visit: impl FnMut(usize, f64)) {
     }
 }
 
-/// Links between the same two cells, summed before they go into the matrix.
+/// What the links between two cells put off the blocks of their patches.
 struct CellPair {
-    key: [usize; 6],
-    unknowns: Vec<usize>,
+    sides: [(usize, usize, usize); 2],
     dense: Vec<f64>,
 }
 
 impl CellPair {
-    fn key(link: &Link) -> [usize; 6] {
-        [link.a.0, link.a.1.i0, link.a.1.j0, link.b.0, link.b.1.i0, link.b.1.j0]
+    fn sides(link: &Link) -> [(usize, usize, usize); 2] {
+        [&link.a, &link.b].map(|(block, row)| (*block, row.i0, row.j0))
     }
 
-    fn new(blocks: &[Block], link: &Link) -> Self {
-        let mut unknowns = Vec::new();
-        for side in [&link.a, &link.b] {
-            let space = &blocks[side.0].space;
-            for a in 0..=space.ku.degree() {
-                for b in 0..=space.kv.degree() {
-                    let u = blocks[side.0].unknowns[(side.1.i0 + a) * space.kv.len() + side.1.j0 + b];
-                    unknowns.push(if u == PRESCRIBED { usize::MAX } else { u as usize });
-                }
-            }
-        }
-        let n = unknowns.len();
-        Self { key: Self::key(link), unknowns, dense: vec![0.0; n * n] }
+    fn new(blocks: &[Block], sides: [(usize, usize, usize); 2]) -> Self {
+        let [rows, columns] = sides.map(|s| blocks[s.0].space.order());
+        Self { sides, dense: vec![0.0; rows * columns] }
     }
 
     fn add(&mut self, blocks: &[Block], link: &Link) {
-        let n = self.unknowns.len();
-        let mut c = Vec::with_capacity(n);
-        for (side, sign) in [(&link.a, 1.0), (&link.b, -1.0)] {
-            let space = &blocks[side.0].space;
-            for line in &side.1.c[..=space.ku.degree()] {
-                c.extend(line[..=space.kv.degree()].iter().map(|v| sign * v));
-            }
-        }
-        for i in 0..n {
-            let ci = c[i] * link.weight;
-            if ci != 0.0 {
-                for (d, cj) in self.dense[i * n..i * n + i + 1].iter_mut().zip(&c) {
-                    *d += ci * cj;
-                }
+        let ([p, q], other) = (blocks[link.a.0].space.degrees(), blocks[link.b.0].space.degrees());
+        let mut at = 0;
+        for a in link.a.1.c[..=p].iter().flat_map(|line| &line[..=q]) {
+            let a = -a * link.weight;
+            for line in &link.b.1.c[..=other[0]] {
+                let line = &line[..=other[1]];
+                self.dense[at..at + line.len()].iter_mut().zip(line).for_each(|(d, b)| *d += a * b);
+                at += line.len();
             }
         }
     }
 
-    fn flush(self, builder: &mut SymmetricBuilder) {
-        let n = self.unknowns.len();
-        for i in 0..n {
-            for j in 0..=i {
-                add_entry(builder, self.unknowns[i], self.unknowns[j], i == j, self.dense[i * n + j]);
+    fn for_each(&self, blocks: &[Block], mut visit: impl FnMut(u32, u32, f64)) {
+        let poles = |side: usize| {
+            let (block, i0, j0) = self.sides[side];
+            let Block { space, unknowns, .. } = &blocks[block];
+            let [p, q] = space.degrees();
+            (i0..=i0 + p).flat_map(move |i| (j0..=j0 + q).map(move |j| unknowns[i * space.kv.len() + j]))
+        };
+        let mut values = self.dense.iter();
+        for i in poles(0) {
+            for (j, value) in poles(1).zip(&mut values) {
+                visit(i, j, *value);
             }
         }
     }
 }
 
-/// An entry off the local diagonal stands for two; where both coefficients are one unknown, both
-/// fall on its diagonal.
-fn add_entry(builder: &mut SymmetricBuilder, i: usize, j: usize, diagonal: bool, value: f64) {
-    if i == usize::MAX || j == usize::MAX || value == 0.0 {
-        return;
-    }
-    builder.add(i, j, if i == j && !diagonal { 2.0 * value } else { value });
+/// All that goes into the matrix: the blocks with their own parts of the links, and what is
+/// between blocks.
+struct Assembly<'a> {
+    blocks: &'a [Block],
+    equations: Vec<NormalEquations>,
+    pairs: Vec<CellPair>,
 }
 
-fn assemble(blocks: &[Block], links: &[Link], unknowns: usize) -> crate::linalg::sparse::SymmetricMatrix {
-    let mut builder = SymmetricBuilder::new(unknowns);
-    let global = |u: u32| if u == PRESCRIBED { usize::MAX } else { u as usize };
-    for block in blocks {
-        block.equations.for_each_entry(|a, b, value| {
-            add_entry(&mut builder, global(block.unknowns[a]), global(block.unknowns[b]), a == b, value);
-        });
-    }
-    let mut pair: Option<CellPair> = None;
-    for link in links {
-        if pair.as_ref().is_none_or(|p| p.key != CellPair::key(link)) {
-            if let Some(full) = pair.replace(CellPair::new(blocks, link)) {
-                full.flush(&mut builder);
+impl<'a> Assembly<'a> {
+    fn new(blocks: &'a [Block], links: &[Link]) -> Self {
+        let mut equations: Vec<NormalEquations> = blocks.iter().map(|b| b.equations.clone()).collect();
+        let (mut pairs, mut known) = (Vec::new(), HashMap::new());
+        for link in links {
+            for (block, row) in [&link.a, &link.b] {
+                equations[*block].add_square(row, link.weight);
             }
+            let sides = CellPair::sides(link);
+            let at = *known.entry(sides).or_insert_with(|| {
+                pairs.push(CellPair::new(blocks, sides));
+                pairs.len() - 1
+            });
+            pairs[at].add(blocks, link);
         }
-        if let Some(p) = &mut pair {
-            p.add(blocks, link);
+        Self { blocks, equations, pairs }
+    }
+}
+
+impl SymmetricEntries for Assembly<'_> {
+    fn for_each(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        // An entry off the local diagonal stands for two; where both coefficients are one unknown,
+        // both fall on its diagonal.
+        let mut entry = |i: u32, j: u32, diagonal: bool, value: f64| {
+            if i != PRESCRIBED && j != PRESCRIBED && value != 0.0 {
+                visit(i as usize, j as usize, if i == j && !diagonal { 2.0 * value } else { value });
+            }
+        };
+        for (block, equations) in self.blocks.iter().zip(&self.equations) {
+            equations.for_each_entry(|a, b, value| {
+                entry(block.unknowns[a], block.unknowns[b], a == b, value);
+            });
+        }
+        for pair in &self.pairs {
+            pair.for_each(self.blocks, |i, j, value| entry(i, j, false, value));
         }
     }
-    if let Some(full) = pair {
-        full.flush(&mut builder);
-    }
-    builder.build()
 }
 
 #[cfg(test)]

@@ -117,11 +117,21 @@ impl KnotVector {
             let start = self.flat[p];
             return self.flat.partition_point(|&k| k <= start) - 1;
         }
-        self.flat[..=n + 1].partition_point(|&k| k <= u) - 1
+        p + self.flat[p..=n + 1].partition_point(|&k| k <= u) - 1
     }
 
     /// The `degree + 1` basis functions that do not vanish on `span` (A2.2).
     pub fn basis(&self, span: usize, u: f64, out: &mut [f64]) {
+        match self.degree {
+            2 => self.basis_of::<2>(span, u, out),
+            3 => self.basis_of::<3>(span, u, out),
+            4 => self.basis_of::<4>(span, u, out),
+            5 => self.basis_of::<5>(span, u, out),
+            _ => self.basis_of_any(span, u, out),
+        }
+    }
+
+    fn basis_of_any(&self, span: usize, u: f64, out: &mut [f64]) {
         let p = self.degree;
         let k = &self.flat;
         let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
@@ -139,14 +149,74 @@ impl KnotVector {
         }
     }
 
+    fn basis_of<const P: usize>(&self, span: usize, u: f64, out: &mut [f64]) {
+        let mut last = Stage::start();
+        let near = self.near::<P>(span);
+        for j in 1..=P {
+            last = last.raised(j, u, &near);
+        }
+        out[..=P].copy_from_slice(&last.n[..=P]);
+    }
+
+    /// The `P` knots on either side of the inside of `span`.
+    fn near<const P: usize>(&self, span: usize) -> [[f64; P]; 2] {
+        [
+            std::array::from_fn(|r| self.flat[span + 1 - P + r]),
+            std::array::from_fn(|r| self.flat[span + 1 + r]),
+        ]
+    }
+
     /// Basis functions and derivatives up to `order` (A2.3): `out[d * (degree + 1) + j]` is the
     /// `d`-th derivative of the `j`-th function that does not vanish on `span`.
     pub fn basis_derivatives(&self, span: usize, u: f64, order: usize, out: &mut [f64]) {
-        // Small work arrays keep the usual degrees in a few cache lines.
-        if self.degree < 8 {
-            self.basis_derivatives_sized::<8>(span, u, order, out);
-        } else {
-            self.basis_derivatives_sized::<{ MAX_DEGREE + 1 }>(span, u, order, out);
+        match (order, self.degree) {
+            (0, _) => self.basis(span, u, out),
+            (1 | 2, 2) => self.derivatives_of::<2>(span, u, order, out),
+            (1 | 2, 3) => self.derivatives_of::<3>(span, u, order, out),
+            (1 | 2, 4) => self.derivatives_of::<4>(span, u, order, out),
+            (1 | 2, 5) => self.derivatives_of::<5>(span, u, order, out),
+            // Small work arrays keep the lower degrees in a few cache lines.
+            (_, ..8) => self.basis_derivatives_sized::<8>(span, u, order, out),
+            _ => self.basis_derivatives_sized::<{ MAX_DEGREE + 1 }>(span, u, order, out),
+        }
+    }
+
+    /// The span of `u` with the functions there and their derivatives below the `K`-th, each in a
+    /// row of at least `degree + 1`.
+    #[inline(always)]
+    pub(super) fn functions<const K: usize, const W: usize>(&self, u: f64) -> (usize, [[f64; W]; K]) {
+        let (span, w) = (self.span(u), self.degree + 1);
+        let mut n = [[0.0; W]; K];
+        let flat = n.as_flattened_mut();
+        self.basis_derivatives(span, u, K - 1, flat);
+        if w < W {
+            for k in (1..K).rev() {
+                flat.copy_within(k * w..(k + 1) * w, k * W);
+            }
+        }
+        (span, n)
+    }
+
+    /// The same for a degree known beforehand and up to two derivatives, which are differences of
+    /// what the recurrence divides on its way (eq. 2.7).
+    fn derivatives_of<const P: usize>(&self, span: usize, u: f64, order: usize, out: &mut [f64]) {
+        let near = self.near::<P>(span);
+        let mut lower = Stage::start();
+        for j in 1..P {
+            lower = lower.raised(j, u, &near);
+        }
+        let last = lower.raised(P, u, &near);
+        out[..=P].copy_from_slice(&last.n[..=P]);
+        let degree = P as f64;
+        last.differences(P, degree, &mut out[P + 1..]);
+        if order == 2 {
+            // Derivatives of the functions of degree P − 1, divided as those were.
+            let mut slopes = Stage::start();
+            lower.differences(P - 1, degree - 1.0, &mut slopes.n);
+            for r in 0..P {
+                slopes.divided[r] = slopes.n[r] / (near[1][r] - near[0][r]);
+            }
+            slopes.differences(P, degree, &mut out[2 * (P + 1)..]);
         }
     }
 
@@ -221,6 +291,50 @@ impl KnotVector {
     }
 }
 
+/// Widest degree of the unrolled recurrence, plus one.
+const WIDE: usize = 6;
+
+/// The functions of one degree on a span, with those of the degree below divided by the length of
+/// their supports.
+#[derive(Clone, Copy)]
+struct Stage {
+    n: [f64; WIDE],
+    divided: [f64; WIDE],
+}
+
+impl Stage {
+    /// Degree 0.
+    fn start() -> Self {
+        let mut n = [0.0; WIDE];
+        n[0] = 1.0;
+        Self { n, divided: [0.0; WIDE] }
+    }
+
+    /// From degree `j - 1` to `j` at `u`; `near` are the knots below and above.
+    #[inline(always)]
+    fn raised<const P: usize>(&self, j: usize, u: f64, near: &[[f64; P]; 2]) -> Self {
+        let mut next = Self { n: [0.0; WIDE], divided: [0.0; WIDE] };
+        for r in 0..j {
+            let (left, right) = (near[0][P + r - j], near[1][r]);
+            let t = self.n[r] / (right - left);
+            next.divided[r] = t;
+            next.n[r] += (right - u) * t;
+            next.n[r + 1] = (u - left) * t;
+        }
+        next
+    }
+
+    /// `factor · (divided[r - 1] - divided[r])` for the `p + 1` functions of degree `p`.
+    #[inline(always)]
+    fn differences(&self, p: usize, factor: f64, out: &mut [f64]) {
+        out[0] = -factor * self.divided[0];
+        for r in 1..p {
+            out[r] = factor * (self.divided[r - 1] - self.divided[r]);
+        }
+        out[p] = factor * self.divided[p - 1];
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -273,6 +387,38 @@ mod tests {
                 let g = knots.greville();
                 let slope: f64 = (0..w).map(|j| n[w + j] * g[span - degree + j]).sum();
                 assert!((slope - 1.0).abs() < 1e-12, "slope {slope} (degree {degree}, u {u})");
+            }
+        }
+    }
+
+    #[test]
+    fn unrolled_degrees_equal_the_general_recurrence() {
+        for degree in 1..=5 {
+            let knots = KnotVector::new(degree, {
+                let mut flat: Vec<f64> = (0..=degree).map(|i| -0.1 * (degree - i) as f64).collect();
+                flat.extend([0.3, 0.3, 0.45, 1.0]);
+                flat.extend((1..=degree).map(|i| 1.0 + 0.2 * i as f64));
+                flat
+            })
+            .unwrap();
+            for step in 0..=60 {
+                let u = step as f64 / 60.0;
+                let span = knots.span(u);
+                let (mut fast, mut general) = ([f64::NAN; 18], [0.0; 18]);
+                knots.basis_derivatives(span, u, 2, &mut fast);
+                knots.basis_derivatives_sized::<8>(span, u, 2, &mut general);
+                for k in 0..3 * (degree + 1) {
+                    let size = general[k].abs().max(1.0);
+                    assert!(
+                        (fast[k] - general[k]).abs() < 1e-13 * size,
+                        "degree {degree}, u {u}, entry {k}: {} instead of {}",
+                        fast[k],
+                        general[k]
+                    );
+                }
+                let mut values = [f64::NAN; 6];
+                knots.basis(span, u, &mut values);
+                assert_eq!(values[..=degree], fast[..=degree], "degree {degree}, u {u}");
             }
         }
     }

@@ -133,22 +133,26 @@ impl<P: Point> NurbsCurve<P> {
         let mut n = [0.0; 3 * (MAX_DEGREE + 1)];
         self.knots.basis_derivatives(span, t, 2, &mut n);
         let first = span - p;
+        // Differences from a pole of the span keep the digits of the derivatives on short spans.
+        let origin = self.poles[span];
+        let base = self.weights.as_ref().map_or(1.0, |w| w[span]);
         let mut a = [P::default(); 3];
         let mut w = [0.0; 3];
         for d in 0..3 {
             for j in 0..=p {
                 let weight = self.weights.as_ref().map_or(1.0, |w| w[first + j]);
-                let b = n[d * (p + 1) + j] * weight;
-                a[d] = a[d] + self.poles[first + j] * b;
-                w[d] += b;
+                let b = n[d * (p + 1) + j];
+                a[d] = a[d] + (self.poles[first + j] - origin) * (b * weight);
+                w[d] += b * (weight - base);
             }
         }
         if self.weights.is_none() {
-            return a;
+            return [a[0] + origin, a[1], a[2]];
         }
-        let c0 = a[0] / w[0];
-        let c1 = (a[1] - c0 * w[1]) / w[0];
-        let c2 = (a[2] - c1 * (2.0 * w[1]) - c0 * w[2]) / w[0];
-        [c0, c1, c2]
+        let total = w[0] + base;
+        let c0 = a[0] / total;
+        let c1 = (a[1] - c0 * w[1]) / total;
+        let c2 = (a[2] - c1 * (2.0 * w[1]) - c0 * w[2]) / total;
+        [c0 + origin, c1, c2]
     }
 }

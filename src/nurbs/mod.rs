@@ -4,10 +4,12 @@
 
 pub mod basis;
 pub mod curve;
+pub mod grid;
 pub mod refine;
 pub mod surface;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use grid::{BasisTable, IsoLine};
 pub use refine::Direction;
 pub use surface::{NurbsSurface, SurfaceDerivatives};

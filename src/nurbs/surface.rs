@@ -80,101 +80,117 @@ impl NurbsSurface {
 
     /// The point at (u, v).
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
-        let (p, q) = (self.knots_u.degree(), self.knots_v.degree());
-        let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
-        let (mut nu, mut nv) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
-        self.knots_u.basis(su, u, &mut nu);
-        self.knots_v.basis(sv, v, &mut nv);
-        let columns = self.knots_v.len();
-        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
-        for i in 0..=p {
-            let row = (su - p + i) * columns + sv - q;
-            for j in 0..=q {
-                let b = nu[i] * nv[j] * self.weights.as_ref().map_or(1.0, |w| w[row + j]);
-                sum += self.poles[row + j] * b;
-                total += b;
-            }
-        }
-        if self.weights.is_some() { sum / total } else { sum }
+        self.jet::<1>(u, v)[0][0]
     }
 
     /// The point, `S_u` and `S_v` at (u, v).
     pub fn first_derivatives(&self, u: f64, v: f64) -> [DVec3; 3] {
-        let (p, q) = (self.knots_u.degree(), self.knots_v.degree());
-        let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
-        let (mut nu, mut nv) = ([0.0; 2 * (MAX_DEGREE + 1)], [0.0; 2 * (MAX_DEGREE + 1)]);
-        self.knots_u.basis_derivatives(su, u, 1, &mut nu);
-        self.knots_v.basis_derivatives(sv, v, 1, &mut nv);
-        let columns = self.knots_v.len();
-        let (mut a, mut w) = ([DVec3::ZERO; 3], [0.0; 3]);
-        for i in 0..=p {
-            let row = (su - p + i) * columns + sv - q;
-            let (mut line, mut line_w) = ([DVec3::ZERO; 2], [0.0; 2]);
-            for j in 0..=q {
-                let weight = self.weights.as_ref().map_or(1.0, |w| w[row + j]);
-                let pole = self.poles[row + j] * weight;
-                for l in 0..2 {
-                    line[l] += pole * nv[l * (q + 1) + j];
-                    line_w[l] += weight * nv[l * (q + 1) + j];
-                }
-            }
-            for (k, l, f) in [(0, 0, nu[i]), (1, 0, nu[p + 1 + i]), (2, 1, nu[i])] {
-                a[k] += line[l] * f;
-                w[k] += line_w[l] * f;
-            }
-        }
-        if self.weights.is_none() {
-            return a;
-        }
-        let s = a[0] / w[0];
-        [s, (a[1] - s * w[1]) / w[0], (a[2] - s * w[2]) / w[0]]
+        let jet = self.jet::<2>(u, v);
+        [jet[0][0], jet[1][0], jet[0][1]]
     }
 
     /// The point and all derivatives up to the second at (u, v) (A4.4).
     pub fn derivatives(&self, u: f64, v: f64) -> SurfaceDerivatives {
-        let (p, q) = (self.knots_u.degree(), self.knots_v.degree());
-        let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
-        let (mut nu, mut nv) = ([0.0; 3 * (MAX_DEGREE + 1)], [0.0; 3 * (MAX_DEGREE + 1)]);
-        self.knots_u.basis_derivatives(su, u, 2, &mut nu);
-        self.knots_v.basis_derivatives(sv, v, 2, &mut nv);
+        self.jet::<3>(u, v).into()
+    }
+
+    /// Derivatives `[k][l]`, the `k`-th in `u` and `l`-th in `v`, for `k + l < K`.
+    fn jet<const K: usize>(&self, u: f64, v: f64) -> [[DVec3; K]; K] {
+        // Known sizes let the compiler unroll: most surfaces are bicubic.
+        match (self.knots_u.degree(), self.knots_v.degree(), &self.weights) {
+            (3, 3, None) => self.polynomial_jet::<K, 4>(3, 3, u, v),
+            (p @ ..6, q @ ..6, None) => self.polynomial_jet::<K, 6>(p, q, u, v),
+            (p, q, None) => self.polynomial_jet::<K, { MAX_DEGREE + 1 }>(p, q, u, v),
+            (.., Some(weights)) => self.rational_jet(weights, u, v),
+        }
+    }
+
+    /// Derivatives are summed over differences from a pole of the span, so that those on short
+    /// spans do not lose the digits of the position.
+    #[inline(always)]
+    fn polynomial_jet<const K: usize, const W: usize>(
+        &self,
+        p: usize,
+        q: usize,
+        u: f64,
+        v: f64,
+    ) -> [[DVec3; K]; K] {
+        let (su, nu) = self.knots_u.functions::<K, W>(u);
+        let (sv, nv) = self.knots_v.functions::<K, W>(v);
         let columns = self.knots_v.len();
-        // Homogeneous sums a[k][l] = d^{k+l}(wS)/du^k dv^l, w likewise.
-        let (mut a, mut w) = ([[DVec3::ZERO; 3]; 3], [[0.0; 3]; 3]);
+        let origin = if K > 1 { self.poles[su * columns + sv] } else { DVec3::ZERO };
+        let mut jet = [[DVec3::ZERO; K]; K];
         for i in 0..=p {
-            let row = (su - p + i) * columns + sv - q;
-            let (mut line, mut line_w) = ([DVec3::ZERO; 3], [0.0; 3]);
+            let first = (su - p + i) * columns + sv - q;
+            let row = &self.poles[first..=first + q];
+            let mut line = [DVec3::ZERO; K];
             for j in 0..=q {
-                let weight = self.weights.as_ref().map_or(1.0, |w| w[row + j]);
-                let pole = self.poles[row + j] * weight;
-                for l in 0..3 {
-                    line[l] += pole * nv[l * (q + 1) + j];
-                    line_w[l] += weight * nv[l * (q + 1) + j];
+                let pole = row[j] - origin;
+                for l in 0..K {
+                    line[l] += pole * nv[l][j];
                 }
             }
-            for k in 0..3 {
-                for l in 0..3 - k {
-                    a[k][l] += line[l] * nu[k * (p + 1) + i];
-                    w[k][l] += line_w[l] * nu[k * (p + 1) + i];
+            for k in 0..K {
+                for l in 0..K - k {
+                    jet[k][l] += line[l] * nu[k][i];
                 }
             }
         }
-        if self.weights.is_none() {
-            return SurfaceDerivatives {
-                s: a[0][0],
-                u: a[1][0],
-                v: a[0][1],
-                uu: a[2][0],
-                uv: a[1][1],
-                vv: a[0][2],
-            };
+        jet[0][0] += origin;
+        jet
+    }
+
+    fn rational_jet<const K: usize>(&self, weights: &[f64], u: f64, v: f64) -> [[DVec3; K]; K] {
+        let (p, q) = (self.knots_u.degree(), self.knots_v.degree());
+        let (su, nu) = self.knots_u.functions::<K, { MAX_DEGREE + 1 }>(u);
+        let (sv, nv) = self.knots_v.functions::<K, { MAX_DEGREE + 1 }>(v);
+        let columns = self.knots_v.len();
+        let last = su * columns + sv;
+        let (origin, base) = (self.poles[last], weights[last]);
+        let (mut jet, mut total) = ([[DVec3::ZERO; K]; K], [[0.0; K]; K]);
+        for i in 0..=p {
+            let first = (su - p + i) * columns + sv - q;
+            let (mut line, mut excess) = ([DVec3::ZERO; K], [0.0; K]);
+            for j in 0..=q {
+                let weight = weights[first + j];
+                let pole = (self.poles[first + j] - origin) * weight;
+                for l in 0..K {
+                    line[l] += pole * nv[l][j];
+                    excess[l] += (weight - base) * nv[l][j];
+                }
+            }
+            for k in 0..K {
+                for l in 0..K - k {
+                    jet[k][l] += line[l] * nu[k][i];
+                    total[k][l] += excess[l] * nu[k][i];
+                }
+            }
         }
-        let w0 = w[0][0];
-        let s = a[0][0] / w0;
-        let du = (a[1][0] - s * w[1][0]) / w0;
-        let dv = (a[0][1] - s * w[0][1]) / w0;
-        let uu = (a[2][0] - du * (2.0 * w[1][0]) - s * w[2][0]) / w0;
-        let uv = (a[1][1] - dv * w[1][0] - du * w[0][1] - s * w[1][1]) / w0;
-        let vv = (a[0][2] - dv * (2.0 * w[0][1]) - s * w[0][2]) / w0;
-        SurfaceDerivatives { s, u: du, v: dv, uu, uv, vv }
+        total[0][0] += base;
+        divide(&mut jet, &total);
+        jet[0][0] += origin;
+        jet
+    }
+}
+
+/// Divides homogeneous derivatives by those of the weight (eq. 4.20), up to the second order.
+pub(super) fn divide<const K: usize>(jet: &mut [[DVec3; K]; K], weight: &[[f64; K]; K]) {
+    let binomial = |n: usize, k: usize| if n == 2 && k == 1 { 2.0 } else { 1.0 };
+    for k in 0..K {
+        for l in 0..K - k {
+            let mut sum = jet[k][l];
+            for i in 0..=k {
+                for j in usize::from(i == 0)..=l {
+                    sum -= jet[k - i][l - j] * (binomial(k, i) * binomial(l, j) * weight[i][j]);
+                }
+            }
+            jet[k][l] = sum / weight[0][0];
+        }
+    }
+}
+
+impl From<[[DVec3; 3]; 3]> for SurfaceDerivatives {
+    fn from(jet: [[DVec3; 3]; 3]) -> Self {
+        Self { s: jet[0][0], u: jet[1][0], v: jet[0][1], uu: jet[2][0], uv: jet[1][1], vv: jet[0][2] }
     }
 }

@@ -7,6 +7,7 @@ use super::interpolate::Collocation;
 use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsCurve, NurbsSurface, Point};
 use glam::DVec3;
+use std::collections::HashMap;
 
 /// Inner samples of a span at which the error is looked at.
 const SAMPLES: [f64; 3] = [0.2, 0.5, 0.8];
@@ -89,6 +90,9 @@ pub fn curve<P: Point + crate::linalg::banded::Rhs>(
     tolerance: f64,
     limit: usize,
 ) -> Result<(NurbsCurve<P>, f64)> {
+    // Most of a round's parameters are those of the round before.
+    let mut known: HashMap<u64, P> = HashMap::new();
+    let mut f = |t: f64| *known.entry(t.to_bits()).or_insert_with(|| f(t));
     loop {
         let knots = breaks.knots()?;
         let collocation = Collocation::new(&knots)?;
@@ -118,22 +122,33 @@ pub fn surface(
     tolerance: f64,
     limit: usize,
 ) -> Result<(NurbsSurface, f64)> {
+    // Many of a round's points are those of the round before.
+    let mut known: HashMap<[u64; 2], DVec3> = HashMap::new();
+    let mut grid = |us: &[f64], vs: &[f64]| -> Vec<DVec3> {
+        let mut f = |a: f64, b: f64| *known.entry([a.to_bits(), b.to_bits()]).or_insert_with(|| f(a, b));
+        us.iter().flat_map(|&a| vs.iter().map(move |&b| (a, b))).map(|(a, b)| f(a, b)).collect()
+    };
     loop {
         let (ku, kv) = (u.knots()?, v.knots()?);
         let (cu, cv) = (Collocation::new(&ku)?, Collocation::new(&kv)?);
-        let grid = |us: &[f64], vs: &[f64]| -> Vec<DVec3> {
-            us.iter().flat_map(|&a| vs.iter().map(move |&b| (a, b))).map(|(a, b)| f(a, b)).collect()
-        };
         let mut poles = grid(cu.points(), cv.points());
         Collocation::poles_tensor(&cu, &cv, &mut poles);
         let fitted = NurbsSurface::new(ku, kv, poles, None)?;
         // On a Greville line of one direction the error is that of the other direction alone.
-        let error = |a: f64, b: f64| (fitted.point(a, b) - f(a, b)).length();
-        let worst = |ts: &[f64], at: &dyn Fn(f64) -> f64| -> Vec<f64> {
-            ts.chunks(SAMPLES.len()).map(|c| c.iter().map(|&t| at(t)).fold(0.0, f64::max)).collect()
+        let mut error = |us: &[f64], vs: &[f64]| -> Vec<f64> {
+            let pairs = fitted.points_on_grid(us, vs).into_iter().zip(grid(us, vs));
+            pairs.map(|(a, b)| (a - b).length()).collect()
         };
-        let error_u = worst(&u.samples(), &|a| cv.points().iter().map(|&b| error(a, b)).fold(0.0, f64::max));
-        let error_v = worst(&v.samples(), &|b| cu.points().iter().map(|&a| error(a, b)).fold(0.0, f64::max));
+        let (us, vs) = (u.samples(), v.samples());
+        let (along_u, along_v) = (error(&us, cv.points()), error(cu.points(), &vs));
+        let worst = |errors: &mut dyn Iterator<Item = f64>| errors.fold(0.0, f64::max);
+        let lines = along_u.chunks(SAMPLES.len() * cv.points().len());
+        let error_u: Vec<f64> = lines.map(|e| worst(&mut e.iter().copied())).collect();
+        let of_span = |s: usize| {
+            let columns = SAMPLES.len() * s..SAMPLES.len() * (s + 1);
+            worst(&mut along_v.chunks(vs.len()).flat_map(|row| &row[columns.clone()]).copied())
+        };
+        let error_v: Vec<f64> = (0..vs.len() / SAMPLES.len()).map(of_span).collect();
         let largest = error_u.iter().chain(&error_v).copied().fold(0.0, f64::max);
         let (mu, mv) = (
             Breaks::worst(&error_u, 0.5 * tolerance, limit),

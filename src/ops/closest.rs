@@ -17,6 +17,9 @@ pub struct Foot {
 /// Steps end when they move the foot by less than this, in mm.
 const STEP_MM: f64 = 1e-11;
 
+/// A full Newton step shorter than this, in mm, leaves less than [`STEP_MM`]: the error is squared.
+const NEWTON_MM: f64 = 1e-7;
+
 /// Steps at most.
 const STEPS: usize = 30;
 
@@ -33,7 +36,7 @@ pub fn foot(surface: &NurbsSurface, p: DVec3, start: DVec2) -> Foot {
         // A coordinate at its bound with the descent pointing out is frozen.
         let frozen = |x: f64, a: f64, b: f64, g: f64| (x <= a && g > 0.0) || (x >= b && g < 0.0);
         let stuck = [frozen(uv.x, u0, u1, gradient.x), frozen(uv.y, v0, v1, gradient.y)];
-        let step = newton_step(&d, r, gradient, stuck);
+        let (step, newton) = newton_step(&d, r, gradient, stuck);
         let mut next = (uv + step).clamp(low, high);
         let mut e = surface.derivatives(next.x, next.y);
         let mut halvings = 0;
@@ -45,15 +48,21 @@ pub fn foot(surface: &NurbsSurface, p: DVec3, start: DVec2) -> Foot {
         let moved = (d.u * (next.x - uv.x)).length() + (d.v * (next.y - uv.y)).length();
         uv = next;
         d = e;
-        if moved < STEP_MM {
+        if moved < STEP_MM || (moved < NEWTON_MM && newton && halvings == 0) {
             break;
         }
     }
     Foot { uv, point: d.s, distance: (d.s - p).length() }
 }
 
-/// The Newton step, or the Gauss-Newton step where the Hessian is not positive definite.
-fn newton_step(d: &crate::nurbs::SurfaceDerivatives, r: DVec3, gradient: DVec2, stuck: [bool; 2]) -> DVec2 {
+/// The Newton step, or the Gauss-Newton step where the Hessian is not positive definite, and
+/// whether it is the former.
+fn newton_step(
+    d: &crate::nurbs::SurfaceDerivatives,
+    r: DVec3,
+    gradient: DVec2,
+    stuck: [bool; 2],
+) -> (DVec2, bool) {
     let (guu, guv, gvv) = (d.u.dot(d.u), d.u.dot(d.v), d.v.dot(d.v));
     let floor = 1e-300;
     if stuck[0] || stuck[1] {
@@ -61,10 +70,11 @@ fn newton_step(d: &crate::nurbs::SurfaceDerivatives, r: DVec3, gradient: DVec2, 
             let h = if gg + second > 0.1 * gg { gg + second } else { gg };
             -g / h.max(floor)
         };
-        return DVec2::new(
+        let step = DVec2::new(
             if stuck[0] { 0.0 } else { along(gradient.x, guu, r.dot(d.uu)) },
             if stuck[1] { 0.0 } else { along(gradient.y, gvv, r.dot(d.vv)) },
         );
+        return (step, false);
     }
     let solve = |a: f64, b: f64, c: f64| {
         let det = a * c - b * b;
@@ -72,9 +82,11 @@ fn newton_step(d: &crate::nurbs::SurfaceDerivatives, r: DVec3, gradient: DVec2, 
             DVec2::new(-(c * gradient.x - b * gradient.y) / det, -(a * gradient.y - b * gradient.x) / det)
         })
     };
-    solve(guu + r.dot(d.uu), guv + r.dot(d.uv), gvv + r.dot(d.vv))
-        .or_else(|| solve(guu, guv, gvv))
-        .unwrap_or_else(|| DVec2::new(-gradient.x / guu.max(floor), -gradient.y / gvv.max(floor)) * 0.5)
+    if let Some(step) = solve(guu + r.dot(d.uu), guv + r.dot(d.uv), gvv + r.dot(d.vv)) {
+        return (step, true);
+    }
+    let steepest = || DVec2::new(-gradient.x / guu.max(floor), -gradient.y / gvv.max(floor)) * 0.5;
+    (solve(guu, guv, gvv).unwrap_or_else(steepest), false)
 }
 
 #[cfg(test)]
