@@ -2,8 +2,7 @@
 
 import math
 
-import FreeCAD
-import Part
+from common import FreeCAD, Part
 
 V = FreeCAD.Vector
 

@@ -28,6 +28,8 @@ from freecad.bladesmith.occ.runtime import part_module  # noqa: E402
 Part = part_module()
 """FreeCAD's module, imported before numpy as it must be."""
 
+FreeCAD = sys.modules["FreeCAD"]
+
 _RESULTS = tempfile.TemporaryDirectory(prefix="bladesmith-tests-")
 
 
@@ -110,8 +112,6 @@ class Probe:
 
 def probes(path: Path) -> list:
     """The rows of a probes file, gzipped or not, as FreeCAD vectors."""
-    import FreeCAD
-
     data = path.read_bytes()
     text = (gzip.decompress(data) if path.suffix == ".gz" else data).decode()
     rows = list(csv.reader(io.StringIO(text)))

@@ -1,6 +1,5 @@
 """B-rep text through the core is the same shape for Open CASCADE.
 
-Run: PYTHONPATH=/usr/lib/freecad-python3/lib /usr/bin/python3 -m unittest discover tests/python
 BLADESMITH_DATA names a directory whose STEP files are tested too.
 """
 
@@ -14,9 +13,8 @@ import tempfile
 import unittest
 
 import brep_zoo
-import Part
+from common import ROOT, Part
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 CATALOGUE = ROOT / "tests/data/brep/catalogue.brep"
 PASSES = {
     "plain": [],
@@ -182,7 +180,8 @@ class RoundTrip(unittest.TestCase):
     def run_core(cls, name, options):
         (cls.directory / name).mkdir()
         paths = [str(cls.directory / "texts"), str(cls.directory / name)]
-        command = ["cargo", "run", "--quiet", "--example", "brep_round_trip", "--"]
+        command = ["cargo", "run", "--release", "--locked", "--quiet", "--example"]
+        command += ["brep_round_trip", "--"]
         done = subprocess.run(command + options + paths, cwd=ROOT, text=True, capture_output=True)
         if done.returncode:
             raise AssertionError(f"{name}: the core failed: {done.stderr}")

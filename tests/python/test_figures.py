@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import common
-from common import mean, morph
+from common import FreeCAD, mean, morph
 from freecad.bladesmith.occ import step
 
 FACTOR = ("--factor", "-1")
@@ -151,8 +151,6 @@ class HeatedDisc(SharedCase):
         self.assert_joints(self.done)
 
     def test_every_point_is_scaled_exactly_with_nodes_or_without(self):
-        import FreeCAD
-
         centre = FreeCAD.Vector(*self.CENTRE)
         hot = step.read(str(self.part)).shape
         for index, (a, b) in enumerate(zip(hot.Faces, self.done.solid.Faces), 1):

@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 import common
-from common import Part
+from common import FreeCAD, Part
 from freecad.bladesmith.native import InputError
 from freecad.bladesmith.occ import judge, step
 from freecad.bladesmith.occ.attributes import SolidAttributes
@@ -192,8 +192,6 @@ class Judgement(unittest.TestCase):
 
 
 def vector(x, y, z):
-    import FreeCAD
-
     return FreeCAD.Vector(x, y, z)
 
 
