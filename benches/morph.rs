@@ -101,7 +101,7 @@ fn dense_face() -> usize {
         equations.add(&space.value(uv), 1.0, DVec3::splat(uv.x));
     }
     equations.add_ridge(1e-3);
-    let mut matrix = nalgebra::DMatrix::zeros(space.len(), space.len());
+    let mut matrix = nalgebra::DMatrix::zeros(space.poles(), space.poles());
     equations.for_each_entry(|a, b, value| matrix[(a.max(b), a.min(b))] = value);
     matrix.cholesky().expect("a positive definite matrix").l().nrows()
 }

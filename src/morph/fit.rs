@@ -33,7 +33,7 @@ impl Fit {
     /// No displacement, on the hot knots.
     pub fn nothing(hot: &Hot) -> Self {
         let spaces: Vec<Space> = hot.patches.iter().map(|p| p.space.clone()).collect();
-        let coefficients = spaces.iter().map(|s| vec![DVec3::ZERO; s.len()]).collect();
+        let coefficients = spaces.iter().map(|s| vec![DVec3::ZERO; s.poles()]).collect();
         Self { spaces, coefficients }
     }
 }
@@ -117,7 +117,7 @@ impl Coupled {
                 let cells = Cells::new(space, &problem.data[p]);
                 let equations = surface_fit::equations(space, &hot.patches[p].hot, &problem.data[p], &cells);
                 let prescribed =
-                    problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.len()]);
+                    problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.poles()]);
                 (Block { space: space.clone(), equations, unknowns, prescribed }, cells)
             })
             .unzip();
@@ -224,12 +224,12 @@ fn number(hot: &Hot, spaces: &[Space], prescribed: &[Option<Vec<DVec3>>]) -> (Ve
     let mut all = Vec::with_capacity(spaces.len());
     for (p, space) in spaces.iter().enumerate() {
         if prescribed[p].is_some() {
-            all.push(vec![PRESCRIBED; space.len()]);
+            all.push(vec![PRESCRIBED; space.poles()]);
             continue;
         }
         let ties = PatchTies::new(hot, p);
-        let mut unknowns = vec![PRESCRIBED; space.len()];
-        for k in 0..space.len() {
+        let mut unknowns = vec![PRESCRIBED; space.poles()];
+        for k in 0..space.poles() {
             let first = ties.first_of(k, space);
             unknowns[k] = if first == k { next } else { unknowns[first] };
             next += u32::from(first == k);

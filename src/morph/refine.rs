@@ -45,7 +45,7 @@ impl Limit {
     }
 
     fn allows(&self, space: &Space, hot: &NurbsSurface) -> Result<bool> {
-        Ok(space.cells() <= self.cells && space.union(hot.knots_u(), hot.knots_v())?.len() <= self.poles)
+        Ok(space.cells() <= self.cells && space.union(hot.knots_u(), hot.knots_v())?.poles() <= self.poles)
     }
 }
 

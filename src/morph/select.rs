@@ -45,10 +45,8 @@ pub fn select(brep: &Brep, field: &Field, options: &Options, warnings: &mut Vec<
             ),
         });
     }
-    if let Some(n) = options.solid {
-        if n == 0 || n > count {
-            return Err(Error::Solid { why: format!("there is no solid {n}: the part has {count}") });
-        }
+    if let Some(n) = options.solid.filter(|&n| n == 0 || n > count) {
+        return Err(Error::Solid { why: format!("there is no solid {n}: the part has {count}") });
     }
     let mut fitting = Vec::new();
     let mut failures = Vec::new();

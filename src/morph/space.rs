@@ -59,7 +59,7 @@ pub struct Space {
 
 impl Space {
     /// Number of poles.
-    pub fn len(&self) -> usize {
+    pub fn poles(&self) -> usize {
         self.ku.len() * self.kv.len()
     }
 
@@ -230,7 +230,7 @@ impl NormalEquations {
     /// Empty equations of `space`.
     pub fn new(space: &Space) -> Self {
         let (p, q) = (space.ku.degree(), space.kv.degree());
-        let n = space.len();
+        let n = space.poles();
         Self {
             rows: space.ku.len(),
             columns: space.kv.len(),
@@ -364,7 +364,7 @@ mod tests {
     fn free_fit_reproduces_a_field_of_the_space() {
         for (p, q) in [(3, 3), (5, 3), (3, 5)] {
             let s = space(p, q);
-            let x: Vec<DVec3> = (0..s.len()).map(|k| DVec3::new((k as f64).sin(), 1.0, k as f64)).collect();
+            let x: Vec<DVec3> = (0..s.poles()).map(|k| DVec3::new((k as f64).sin(), 1.0, k as f64)).collect();
             let mut equations = NormalEquations::new(&s);
             for i in 0..40 {
                 for j in 0..40 {
@@ -387,7 +387,7 @@ mod tests {
         let mut poles: Vec<DVec3> =
             cu.points().iter().flat_map(|&u| cv.points().iter().map(move |&v| point(u, v))).collect();
         Collocation::poles_tensor(&cu, &cv, &mut poles);
-        let surface = displaced(&s, &poles, &vec![DVec3::ZERO; s.len()]).unwrap();
+        let surface = displaced(&s, &poles, &vec![DVec3::ZERO; s.poles()]).unwrap();
         let field: Vec<DVec3> = poles.iter().map(|x| DVec3::new(x.x - 2.0 * x.y, 3.0 * x.y, x.x)).collect();
         let square: Vec<DVec3> = {
             let mut f: Vec<DVec3> = cu

@@ -201,7 +201,7 @@ mod tests {
         let space = Space { ku: knots(&[0.0, 0.5, 1.0]), kv: knots(&[0.0, 1.0]) };
         let mut equations = NormalEquations::new(&space);
         equations.add_ridge(1e-9);
-        let n = space.len() as u32;
+        let n = space.poles() as u32;
         let unknowns = (0..n).map(|k| if fixed { PRESCRIBED } else { first + k }).collect();
         let prescribed = vec![if fixed { DVec3::X } else { DVec3::ZERO }; n as usize];
         Block { space, equations, unknowns, prescribed }

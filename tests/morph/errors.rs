@@ -54,7 +54,8 @@ fn a_solid_that_does_not_exist_is_refused() {
 #[test]
 fn a_field_elsewhere_is_refused() {
     let (brep, field) = good();
-    let places: [(&str, fn(DVec3) -> DVec3); 3] = [
+    type Place = fn(DVec3) -> DVec3;
+    let places: [(&str, Place); 3] = [
         ("mirrored", |p| DVec3::new(p.x, p.y, -p.z)),
         ("turned", |p| DVec3::new(p.z, p.x, p.y + 2.0)),
         ("far", |p| p + DVec3::splat(1e5)),

@@ -64,7 +64,8 @@ fn surface(hot: &Hot, face: usize) -> usize {
 }
 
 fn assert_same_topology(old: &Hot, new: &Hot) {
-    let outline = |h: &Hot| -> Vec<(bool, Vec<Vec<(usize, bool)>>)> {
+    type Outline = (bool, Vec<Vec<(usize, bool)>>);
+    let outline = |h: &Hot| -> Vec<Outline> {
         let wire = |w: &Vec<bladesmith::brep::Coedge>| w.iter().map(|c| (c.edge, c.reversed)).collect();
         h.topology.faces.iter().map(|f| (f.reversed, f.wires.iter().map(wire).collect())).collect()
     };
