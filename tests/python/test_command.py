@@ -140,6 +140,12 @@ class Refusals(InFolder):
             done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", *options)
             self.assert_refused(done, words)
 
+    def test_faces_of_several_solids_need_the_solid_they_count_in(self):
+        arguments = ["morph", packed("two_solids.step"), BASE[1], "-o", self.folder / "c.step"]
+        self.assert_refused(bladesmith(*arguments, "--fixed", "1"), "holds 2", "--solid")
+        done = bladesmith(*arguments, "--fixed", "1", "--solid", "1", "--quiet")
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+
     def test_tracebacks_are_for_those_who_ask(self):
         arguments = ("morph", "none.step", BASE[1], "-o", self.folder / "c.step")
         self.assertNotIn("Traceback", bladesmith(*arguments).stderr)
