@@ -94,7 +94,11 @@ class Words(unittest.TestCase):
         edges[2].update(tangent=True, angle_deg={"before": 0.0, "after": 0.5}, held=True)
         changed = report(edges=edges, warnings=[])
         self.assertEqual(words.state(changed, 1e-3), "odd")
-        self.assertIn("Edge3 (beside held faces)", " ".join(words.sentences(changed, 1e-3)))
+        said = " ".join(words.sentences(changed, 1e-3))
+        self.assertIn("Beside held faces, Edge3 opened by up to 0.5°", said)
+        edges[2]["held"] = False
+        said = " ".join(words.sentences(report(edges=edges), 1e-3))
+        self.assertIn("1 of 1 tangent joints opened: Edge3.", said)
 
 
 class Tables(unittest.TestCase):

@@ -41,7 +41,7 @@ def sentences(report: Report, tolerance_mm: float) -> list[str]:
             f"No edge is open by more than {length(edge.gap_mm.after)} mm "
             f"(Edge{edge.index}; {length(edge.gap_mm.before)} mm before)."
         )
-    found.append(_tangency_sentence(report))
+    found += _tangency_sentences(report)
     if report.unmatched:
         found.append(f"{report.unmatched} nodes of the mesh's surface lie on no face.")
     return found
@@ -58,16 +58,32 @@ def _solid_sentence(solid: dict) -> str:
     return f"{judged}; it is {closed}, has {solid['faces']} faces, and {folds}."
 
 
-def _tangency_sentence(report: Report) -> str:
+def _tangency_sentences(report: Report) -> list[str]:
+    """Joints beside held faces apart: there the field itself asks for a kink."""
     tangent = [edge for edge in report.edges if edge.tangent]
     if not tangent:
-        return "The part has no tangent joints."
+        return ["The part has no tangent joints."]
     bad = opened(report)
-    if bad:
-        names = ", ".join(f"Edge{edge.index}" for edge in bad[:8])
-        held = " (beside held faces)" if all(edge.held for edge in bad) else ""
-        return f"{len(bad)} of {len(tangent)} tangent joints opened: {names}{held}."
-    return f"All {len(tangent)} tangent joints stay tangent within {_TANGENT_DEG:g}°."
+    free, held = ([edge for edge in bad if edge.held == side] for side in (False, True))
+    kept = f"stay tangent within {_TANGENT_DEG:g}°."
+    found = []
+    if free:
+        found.append(f"{len(free)} of {len(tangent)} tangent joints opened: {_names(free)}.")
+    elif held:
+        found.append(f"All tangent joints but those beside held faces {kept}")
+    else:
+        found.append(f"All {len(tangent)} tangent joints {kept}")
+    if held:
+        most = max(edge.angle_deg.after - edge.angle_deg.before for edge in held)
+        found.append(
+            f"Beside held faces, {_names(held)} opened by up to {most:.2g}°, as the field asks."
+        )
+    return found
+
+
+def _names(edges: list) -> str:
+    names = [f"Edge{edge.index}" for edge in edges[:8]]
+    return ", ".join(names) + (" and others" if len(edges) > 8 else "")
 
 
 def length(value: float) -> str:
