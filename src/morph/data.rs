@@ -30,32 +30,39 @@ pub struct Datum {
 pub struct PatchData {
     /// Data, in the order of the matches.
     pub data: Vec<Datum>,
-    /// Median spacing, mm; 0 without data.
+    /// Median spacing, mm; that of the whole solid without data.
     pub spacing: f64,
 }
 
-/// Distance from each match's foot to its third neighbour on the same face, mm (to the farthest
-/// one where there are fewer).
+/// Distance from each match's foot to its third neighbour on the same face, mm; among the nodes of
+/// the whole solid where the face has too few of its own.
 pub fn spacings(hot: &Hot, matches: &[Match]) -> Vec<f64> {
+    let tree_of = |own: &[Match]| {
+        RTree::bulk_load(own.iter().map(|m| GeomWithData::new(m.foot.point.to_array(), ())).collect())
+    };
+    let all = std::sync::OnceLock::new();
     let per_face: Vec<Vec<f64>> = (0..hot.faces.len() as u32)
         .into_par_iter()
         .map(|face| {
             let range =
                 matches.partition_point(|m| m.face < face)..matches.partition_point(|m| m.face <= face);
             let own = &matches[range];
-            let points: Vec<_> = own.iter().map(|m| GeomWithData::new(m.foot.point.to_array(), ())).collect();
-            let tree = RTree::bulk_load(points);
+            let tree = tree_of(own);
             let nth = |m: &Match| {
-                // Nodes that coincide, the first being the node itself, tell nothing.
-                let neighbours = tree.nearest_neighbor_iter_with_distance_2(&m.foot.point.to_array());
-                let apart = neighbours.map(|n| n.1).filter(|d| *d > COINCIDENT_MM * COINCIDENT_MM);
-                let last = apart.take(NEIGHBOUR).last().unwrap_or(0.0);
-                last.sqrt()
+                third_neighbour(&tree, m).or_else(|| third_neighbour(all.get_or_init(|| tree_of(matches)), m))
             };
-            own.par_iter().map(nth).collect()
+            own.par_iter().map(|m| nth(m).unwrap_or(0.0)).collect()
         })
         .collect();
     per_face.concat()
+}
+
+/// Distance to the third of the nearest nodes, mm. Those that coincide with the match, itself the
+/// first, tell nothing.
+fn third_neighbour(tree: &RTree<GeomWithData<[f64; 3], ()>>, m: &Match) -> Option<f64> {
+    let neighbours = tree.nearest_neighbor_iter_with_distance_2(&m.foot.point.to_array());
+    let mut apart = neighbours.map(|n| n.1).filter(|d| *d > COINCIDENT_MM * COINCIDENT_MM);
+    apart.nth(NEIGHBOUR - 1).map(f64::sqrt)
 }
 
 /// Collects the data of every patch; `target` gives the displacement wanted at a match, or none
@@ -77,10 +84,16 @@ pub fn collect(
             });
         }
     }
+    let of_all = median(spacings.iter().copied()).unwrap_or(1.0);
     for patch in &mut out {
-        let mut sorted: Vec<f64> = patch.data.iter().map(|d| d.spacing).filter(|s| *s > 0.0).collect();
-        sorted.sort_by(f64::total_cmp);
-        patch.spacing = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        patch.spacing = median(patch.data.iter().map(|d| d.spacing)).unwrap_or(of_all);
     }
     out
+}
+
+/// The median of the positive values.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.filter(|s| *s > 0.0).collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
 }

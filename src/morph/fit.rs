@@ -213,8 +213,7 @@ impl Coupled {
 
 /// Node spacing along a joint: the finer of its sides, mm.
 fn joint_spacing(problem: &Problem<'_>, joint: &super::hot::Joint) -> f64 {
-    let spacing = |s: &super::hot::Side| Some(problem.data[s.patch].spacing).filter(|s| *s > 0.0);
-    joint.sides.iter().filter_map(spacing).reduce(f64::min).unwrap_or(1.0)
+    joint.sides.iter().map(|s| problem.data[s.patch].spacing).fold(f64::INFINITY, f64::min)
 }
 
 /// Numbers the unknowns. Coefficients along a closed or degenerate side of a patch are one
