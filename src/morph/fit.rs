@@ -17,8 +17,8 @@ use rayon::prelude::*;
 const ROUNDS: [usize; 2] = [2, 4];
 /// What is far off, as a fraction of the tolerance asked.
 const FAR: f64 = 0.8;
-/// The weight that a datum may come to.
-const HEAVIEST: f64 = 100.0;
+/// The weight that a datum may come to; links between faces weigh far more.
+const HEAVIEST: f64 = 10.0;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
 
