@@ -4,12 +4,16 @@
 
 pub mod basis;
 pub mod curve;
+pub mod evaluator;
 pub mod grid;
 pub mod refine;
+mod span_table;
 pub mod surface;
+mod wide;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use evaluator::SurfaceEvaluator;
 pub use grid::{BasisTable, IsoLine};
 pub use refine::Direction;
 pub use surface::{NurbsSurface, SurfaceDerivatives};
