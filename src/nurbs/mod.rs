@@ -4,8 +4,12 @@
 
 pub mod basis;
 pub mod curve;
+pub mod derivatives;
+pub mod differential;
 pub mod evaluator;
 pub mod grid;
+mod knots;
+pub mod length;
 pub mod refine;
 mod span_table;
 pub mod surface;
@@ -13,7 +17,10 @@ mod wide;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use derivatives::Side;
+pub use differential::{Frenet, PrincipalCurvatures};
 pub use evaluator::SurfaceEvaluator;
 pub use grid::{BasisTable, IsoLine};
+pub use length::ArcLength;
 pub use refine::Direction;
 pub use surface::{NurbsSurface, SurfaceDerivatives};
