@@ -4,6 +4,7 @@
 
 pub mod basis;
 pub mod curve;
+pub mod degree;
 pub mod derivatives;
 pub mod differential;
 pub mod evaluator;
@@ -11,6 +12,7 @@ pub mod grid;
 mod knots;
 pub mod length;
 pub mod refine;
+pub mod removal;
 mod span_table;
 pub mod surface;
 mod wide;
