@@ -22,7 +22,7 @@ impl<P: Point> Net<P> {
         Self { columns, poles, weights: weights.map(<[f64]>::to_vec) }
     }
 
-    fn transposed(&self) -> Self {
+    pub(super) fn transposed(&self) -> Self {
         let rows = self.poles.len() / self.columns;
         let order = || (0..self.poles.len()).map(|i| (i % rows) * self.columns + i / rows);
         Self {
@@ -36,10 +36,6 @@ impl<P: Point> Net<P> {
     fn insert(&mut self, share: &[f64]) {
         self.poles = blend(&self.poles, self.columns, share);
         self.weights = self.weights.as_ref().map(|w| blend(w, self.columns, share));
-    }
-
-    pub(super) fn rows(&self) -> usize {
-        self.poles.len() / self.columns
     }
 
     /// As many rows as there are entries, each the sum of shares of the old ones.
