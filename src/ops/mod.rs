@@ -1,5 +1,9 @@
-//! Operations on splines: interpolation, approximation, closest points.
+//! Operations on splines: interpolation, least squares, approximation, skinning, closest points.
 
 pub mod approximate;
 pub mod closest;
+pub mod conditions;
 pub mod interpolate;
+pub mod least_squares;
+pub mod parametrise;
+pub mod skin;
