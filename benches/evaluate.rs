@@ -1,7 +1,9 @@
 //! Points and derivatives of surfaces at random parameters, one thread, against a plain de Boor
 //! scheme in the same run.
 
-use bladesmith::nurbs::{KnotVector, NurbsSurface, SurfaceDerivatives, SurfaceEvaluator};
+use bladesmith::nurbs::{
+    CurveEvaluator, Direction, KnotVector, NurbsSurface, SurfaceDerivatives, SurfaceEvaluator,
+};
 use glam::{DVec2, DVec3};
 use std::hint::black_box;
 use std::time::Instant;
@@ -33,6 +35,36 @@ fn main() {
         let single = best(|| uv.iter().map(|uv| s.derivatives(uv.x, uv.y).uv.x).sum());
         row(&format!("two derivatives, {p} × {q} {kind}"), [batch, single, naive]);
     }
+    curves(&uv);
+}
+
+/// A cubic curve of 60 poles in space.
+fn curves(uv: &[DVec2]) {
+    let s = surface(3, 3, false);
+    let curve = s.isocurve(Direction::V, 0.4).expect("a curve");
+    let ts: Vec<f64> = uv.iter().map(|uv| uv.x).collect();
+    let naive = best(|| {
+        let pole = |i: usize| curve.poles()[i].extend(1.0);
+        let at = |t: f64| {
+            let span = curve.knots().span(t);
+            corners(curve.knots(), span, t, (span - 3..=span).map(pole).collect()).x
+        };
+        ts.iter().map(|&t| at(t)).sum()
+    });
+    let mut points = vec![DVec3::ZERO; POINTS];
+    let batch = best(|| {
+        CurveEvaluator::new(&curve).points_into(&ts, &mut points);
+        points[POINTS / 2].x
+    });
+    let single = best(|| ts.iter().map(|&t| curve.point(t).x).sum());
+    row("points, cubic curve", [batch, single, naive]);
+    let mut jets = vec![[DVec3::ZERO; 3]; POINTS];
+    let batch = best(|| {
+        CurveEvaluator::new(&curve).derivatives_into(&ts, &mut jets);
+        jets[POINTS / 2][0].x
+    });
+    let single = best(|| ts.iter().map(|&t| curve.derivatives(t)[2].x).sum());
+    row("two derivatives, cubic curve", [batch, single, naive]);
 }
 
 fn row(name: &str, [batch, single, naive]: [f64; 3]) {

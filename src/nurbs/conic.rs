@@ -5,36 +5,39 @@ use super::curve::{NurbsCurve, Point};
 use crate::error::{Error, Result};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// The quadratic arcs of one unit circle from one angle to another: breaks of the parameter on
-/// [0, 1], poles as (cos, sin) coordinates, weights.
-fn unit_arc(from: f64, to: f64) -> Result<(Vec<f64>, Vec<[f64; 2]>, Vec<f64>)> {
-    let sweep = to - from;
-    // A full turn may be a rounding error too long.
-    if !(sweep.is_finite() && sweep != 0.0 && sweep.abs() <= TAU * (1.0 + 1e-15)) {
-        let why = format!("an arc from {from} to {to} rad must sweep more than 0 and at most a full turn");
-        return Err(Error::Argument { name: "angles", why });
-    }
-    let pieces = (sweep.abs() / FRAC_PI_2 - 1e-12).ceil().max(1.0) as usize;
-    let half = 0.5 * sweep / pieces as f64;
-    let breaks = (0..=pieces).map(|i| i as f64 / pieces as f64).collect();
-    let mut poles = vec![[from.cos(), from.sin()]];
-    let mut weights = vec![1.0];
-    for i in 0..pieces {
-        let middle = from + half * (2 * i + 1) as f64;
-        let end = if i + 1 == pieces { to } else { middle + half };
-        poles.push([middle.cos() / half.cos(), middle.sin() / half.cos()]);
-        poles.push([end.cos(), end.sin()]);
-        weights.extend([half.cos(), 1.0]);
-    }
-    Ok((breaks, poles, weights))
+/// Arcs of the unit circle as one quadratic curve over [0, 1], for arcs and surfaces of revolution.
+pub(super) struct UnitArc {
+    pub knots: KnotVector,
+    /// Cosine and sine, so to say, of each pole.
+    pub poles: Vec<[f64; 2]>,
+    pub weights: Vec<f64>,
 }
 
-/// Knots, poles and weights of the arcs of one unit circle, for curves and surfaces of revolution.
-pub(super) fn unit_arc_net(from: f64, to: f64) -> Result<(KnotVector, Vec<[f64; 2]>, Vec<f64>)> {
-    let (breaks, poles, weights) = unit_arc(from, to)?;
-    let mut multiplicities = vec![2; breaks.len()];
-    (multiplicities[0], multiplicities[breaks.len() - 1]) = (3, 3);
-    Ok((KnotVector::with_multiplicities(2, &breaks, &multiplicities)?, poles, weights))
+impl UnitArc {
+    /// From one angle to another, in rad.
+    pub(super) fn new(from: f64, to: f64) -> Result<Self> {
+        let sweep = to - from;
+        // A full turn may be a rounding error too long.
+        if !(sweep.is_finite() && sweep != 0.0 && sweep.abs() <= TAU * (1.0 + 1e-15)) {
+            let why =
+                format!("an arc from {from} to {to} rad must sweep more than 0 and at most a full turn");
+            return Err(Error::Argument { name: "angles", why });
+        }
+        let pieces = (sweep.abs() / FRAC_PI_2 - 1e-12).ceil().max(1.0) as usize;
+        let half = 0.5 * sweep / pieces as f64;
+        let breaks: Vec<f64> = (0..=pieces).map(|i| i as f64 / pieces as f64).collect();
+        let mut multiplicities = vec![2; breaks.len()];
+        (multiplicities[0], multiplicities[pieces]) = (3, 3);
+        let (mut poles, mut weights) = (vec![[from.cos(), from.sin()]], vec![1.0]);
+        for i in 0..pieces {
+            let middle = from + half * (2 * i + 1) as f64;
+            let end = if i + 1 == pieces { to } else { middle + half };
+            poles.push([middle.cos() / half.cos(), middle.sin() / half.cos()]);
+            poles.push([end.cos(), end.sin()]);
+            weights.extend([half.cos(), 1.0]);
+        }
+        Ok(Self { knots: KnotVector::with_multiplicities(2, &breaks, &multiplicities)?, poles, weights })
+    }
 }
 
 impl<P: Point> NurbsCurve<P> {
@@ -45,9 +48,9 @@ impl<P: Point> NurbsCurve<P> {
     /// # Errors
     /// [`Error::Argument`] for an empty sweep or more than a turn.
     pub fn arc(centre: P, x: P, y: P, from: f64, to: f64) -> Result<Self> {
-        let (knots, poles, weights) = unit_arc_net(from, to)?;
-        let poles = poles.iter().map(|[c, s]| centre + x * *c + y * *s).collect();
-        Self::new(knots, poles, Some(weights))
+        let unit = UnitArc::new(from, to)?;
+        let poles = unit.poles.iter().map(|[c, s]| centre + x * *c + y * *s).collect();
+        Self::new(unit.knots, poles, Some(unit.weights))
     }
 
     /// The conic segment from `start` to `end`, tangent there to the lines through `corner`, over

@@ -1,7 +1,7 @@
 //! Surfaces from curves: ruled, of revolution, Coons (*The NURBS Book*, sections 8.4, 8.5 and 10.6).
 
 use super::basis::KnotVector;
-use super::conic::unit_arc_net;
+use super::conic::UnitArc;
 use super::curve::NurbsCurve;
 use super::join::compatible;
 use super::refine::Direction;
@@ -35,17 +35,17 @@ impl NurbsSurface {
             name: "axis",
             why: format!("a direction was expected, not {axis}"),
         })?;
-        let (knots, circle, factors) = unit_arc_net(0.0, angle)?;
+        let unit = UnitArc::new(0.0, angle)?;
         let turned = |&p: &DVec3| {
             let foot = origin + axis * (p - origin).dot(axis);
             let (x, y) = (p - foot, axis.cross(p - foot));
-            circle.iter().map(move |[c, s]| foot + x * *c + y * *s)
+            unit.poles.iter().map(move |[c, s]| foot + x * *c + y * *s)
         };
         let poles = curve.poles().iter().flat_map(turned).collect();
         let rational = curve.rational();
         let weights = rational.weights().unwrap_or_default().iter();
-        let weights = weights.flat_map(|w| factors.iter().map(move |f| w * f)).collect();
-        Self::new(curve.knots().clone(), knots, poles, Some(weights))
+        let weights = weights.flat_map(|w| unit.weights.iter().map(move |f| w * f)).collect();
+        Self::new(curve.knots().clone(), unit.knots, poles, Some(weights))
     }
 
     /// The bilinearly blended Coons patch between two curves along `u` (at the start and the end of

@@ -22,6 +22,8 @@ pub trait Point:
     const DIMENSION: usize;
     /// One coordinate.
     fn coordinate(self, index: usize) -> f64;
+    /// The point with these coordinates, the last unused in the plane.
+    fn from_coordinates(coordinates: [f64; 3]) -> Self;
     /// Scalar product.
     fn dot(self, other: Self) -> f64;
     /// Whether every coordinate is finite.
@@ -37,6 +39,9 @@ impl Point for DVec2 {
     fn coordinate(self, index: usize) -> f64 {
         self[index]
     }
+    fn from_coordinates([x, y, _]: [f64; 3]) -> Self {
+        DVec2::new(x, y)
+    }
     fn dot(self, other: Self) -> f64 {
         DVec2::dot(self, other)
     }
@@ -49,6 +54,9 @@ impl Point for DVec3 {
     const DIMENSION: usize = 3;
     fn coordinate(self, index: usize) -> f64 {
         self[index]
+    }
+    fn from_coordinates(coordinates: [f64; 3]) -> Self {
+        DVec3::from_array(coordinates)
     }
     fn dot(self, other: Self) -> f64 {
         DVec3::dot(self, other)

@@ -1,8 +1,9 @@
 //! Derivatives of any order, rational ones included, and one-sided limits at knots
 //! (A4.2 and A4.4 of *The NURBS Book*).
 //!
-//! Sums run over differences from a pole of the span, so that high derivatives on short spans do
-//! not lose the digits of the position.
+//! Sums run over differences from the coordinates and the weight of the span that are nearest to
+//! zero: high derivatives on short spans do not lose the digits of the position, and no error is
+//! added beyond that of the poles and weights themselves.
 
 use super::basis::KnotVector;
 use super::curve::{NurbsCurve, Point};
@@ -41,6 +42,16 @@ impl KnotVector {
     }
 }
 
+/// What differences are taken from, point and weight.
+fn origin<P: Point>(poles: impl Iterator<Item = P> + Clone, weights: impl Iterator<Item = f64>) -> (P, f64) {
+    let mut nearest = [0.0; 3];
+    for (k, least) in nearest.iter_mut().enumerate().take(P::DIMENSION) {
+        let along = poles.clone().map(|p| p.coordinate(k));
+        *least = along.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+    }
+    (P::from_coordinates(nearest), weights.fold(f64::INFINITY, f64::min))
+}
+
 /// `n` over `k`.
 pub(super) fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |b, i| b * (n - i) as f64 / (i + 1) as f64)
@@ -62,7 +73,7 @@ impl<P: Point> NurbsCurve<P> {
         let first = span - self.knots().degree();
         let n = self.knots().table(span, t, order);
         let weight = |i: usize| self.weights().map_or(1.0, |w| w[i]);
-        let (origin, base) = (self.poles()[span], weight(span));
+        let (origin, base) = origin(self.poles()[first..=span].iter().copied(), (first..=span).map(weight));
         let (mut a, mut w) = (vec![P::default(); order + 1], vec![0.0; order + 1]);
         for k in 0..=order {
             for (i, &b) in (first..).zip(&n[k]) {
@@ -96,12 +107,13 @@ impl NurbsSurface {
         let (su, sv) = (ku.span_from(u, sides[0]), kv.span_from(v, sides[1]));
         let (nu, nv) = (ku.table(su, u, order), kv.table(sv, v, order));
         let weight = |i: usize| self.weights().map_or(1.0, |w| w[i]);
-        let last = su * kv.len() + sv;
-        let (origin, base) = (self.poles()[last], weight(last));
+        let row = |i: usize| (su - ku.degree() + i) * kv.len() + sv - kv.degree();
+        let indices = || (0..=ku.degree()).flat_map(|i| row(i)..=row(i) + kv.degree());
+        let (origin, base) = origin(indices().map(|i| self.poles()[i]), indices().map(weight));
         let mut jet: Vec<_> = (0..=order).map(|k| vec![DVec3::ZERO; order + 1 - k]).collect();
         let mut w: Vec<_> = (0..=order).map(|k| vec![0.0; order + 1 - k]).collect();
         for i in 0..=ku.degree() {
-            let row = (su - ku.degree() + i) * kv.len() + sv - kv.degree();
+            let row = row(i);
             for j in 0..=kv.degree() {
                 let pole = (self.poles()[row + j] - origin) * weight(row + j);
                 let excess = weight(row + j) - base;

@@ -1,4 +1,4 @@
-//! Many points of one curve or surface, anywhere on it.
+//! Many points of one surface, anywhere on it.
 //!
 //! Knots are prepared once ([`super::span_table`]); points are worked off in blocks: basis
 //! functions of the block along each direction, then sums over poles of four numbers
@@ -12,8 +12,8 @@ use super::wide::{self, Four, Work};
 use glam::{DVec2, DVec3};
 
 /// Points of one block: its basis functions fit the fastest cache.
-const BLOCK: usize = 4 * FOURS;
-const FOURS: usize = 8;
+pub(super) const BLOCK: usize = 4 * FOURS;
+pub(super) const FOURS: usize = 8;
 
 /// A surface prepared for evaluation at many places.
 #[derive(Debug, Clone)]
@@ -32,6 +32,20 @@ struct Prepared {
     columns: usize,
     /// Coordinates and weights.
     poles: Vec<[f64; 4]>,
+    /// By the first pole of a span, what derivatives are summed over differences from.
+    origins: Vec<[f64; 4]>,
+}
+
+/// For each window of so many entries, `stride` apart, in each place the number nearest to zero.
+/// Differences from it keep the digits of derivatives on short spans, and add no error beyond that
+/// of the entries themselves.
+pub(super) fn nearest_to_zero(entries: &[[f64; 4]], window: usize, stride: usize) -> Vec<[f64; 4]> {
+    let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
+    let of = |first: usize| {
+        let window = entries[first..].iter().step_by(stride).take(window);
+        window.fold([f64::INFINITY; 4], |a, b| std::array::from_fn(|k| nearer(a[k], b[k])))
+    };
+    (0..entries.len()).map(of).collect()
 }
 
 impl<'a> SurfaceEvaluator<'a> {
@@ -43,13 +57,12 @@ impl<'a> SurfaceEvaluator<'a> {
             let [x, y, z] = surface.poles()[i].to_array();
             [x, y, z, surface.weights().map_or(0.0, |w| w[i])]
         };
-        let prepared = prepared.map(|(u, v)| Prepared {
-            u,
-            v,
-            rows: order(surface.knots_u()),
-            width: order(surface.knots_v()),
-            columns: surface.knots_v().len(),
-            poles: (0..surface.poles().len()).map(pole).collect(),
+        let prepared = prepared.map(|(u, v)| {
+            let (rows, width) = (order(surface.knots_u()), order(surface.knots_v()));
+            let columns = surface.knots_v().len();
+            let poles: Vec<_> = (0..surface.poles().len()).map(pole).collect();
+            let origins = nearest_to_zero(&nearest_to_zero(&poles, width, 1), rows, columns);
+            Prepared { u, v, rows, width, columns, poles, origins }
         });
         Self { surface, prepared }
     }
@@ -75,7 +88,10 @@ impl<'a> SurfaceEvaluator<'a> {
 
     /// Writes the points and derivatives at the parameters, as many as both slices have.
     pub fn derivatives_into(&self, uv: &[DVec2], out: &mut [SurfaceDerivatives]) {
-        self.each(uv, out, |uv| self.surface.derivatives(uv.x, uv.y));
+        self.each(uv, out, |uv| {
+            let d = self.surface.derivatives_to(uv.x, uv.y, 2);
+            SurfaceDerivatives { s: d[0][0], u: d[1][0], v: d[0][1], uu: d[2][0], uv: d[1][1], vv: d[0][2] }
+        });
     }
 
     fn each<const K: usize, T: OfJet<K>>(&self, uv: &[DVec2], out: &mut [T], one: impl Fn(DVec2) -> T) {
@@ -122,7 +138,7 @@ fn coordinates<F: Four>(four: F) -> DVec3 {
 }
 
 #[inline(always)]
-fn weight<F: Four>(four: F) -> f64 {
+pub(super) fn weight<F: Four>(four: F) -> f64 {
     four.to_array()[3]
 }
 
@@ -179,8 +195,7 @@ impl<T> Batch<'_, T> {
 struct Order<const K: usize>;
 
 impl Prepared {
-    /// Derivatives `[k][l]`, `k + l < K`, of one of four; as in [`NurbsSurface::derivatives`] over
-    /// differences from a pole of the span.
+    /// Derivatives `[k][l]`, `k + l < K`, of one of four.
     #[inline(always)]
     fn jet<F: Four, const K: usize, const W: usize, const RATIONAL: bool>(
         &self,
@@ -189,9 +204,11 @@ impl Prepared {
         of: usize,
     ) -> [[F; K]; K] {
         let first = nu.first[of] * self.columns + nv.first[of];
-        let last = first + (self.rows - 1) * self.columns + W - 1;
-        let (local, zero) = (K > 1 || RATIONAL, F::splat(0.0));
-        let origin = F::load(&self.poles[last]);
+        // Points alone are sums of what has no cancellation anyway.
+        let (local, zero) = (K > 1, F::splat(0.0));
+        let origin = &self.origins[first];
+        let base = if local { origin[3] } else { 0.0 };
+        let origin = F::load(origin);
         let mut jet = [[zero; K]; K];
         for i in 0..self.rows {
             let row = &self.poles[first + i * self.columns..][..W];
@@ -216,7 +233,7 @@ impl Prepared {
             }
         }
         if RATIONAL {
-            divide(&mut jet, self.poles[last][3]);
+            divide(&mut jet, base);
         }
         if local {
             jet[0][0] = jet[0][0] + origin;

@@ -2,10 +2,13 @@
 //!
 //! Algorithms after Piegl and Tiller, *The NURBS Book* (2nd ed., 1997), cited by number.
 
+#[cfg(test)]
+mod accuracy;
 pub mod basis;
 pub mod conic;
 pub mod construct;
 pub mod curve;
+pub mod curve_evaluator;
 pub mod degree;
 pub mod derivatives;
 pub mod differential;
@@ -23,6 +26,7 @@ mod wide;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use curve_evaluator::CurveEvaluator;
 pub use derivatives::Side;
 pub use differential::{Frenet, PrincipalCurvatures};
 pub use evaluator::SurfaceEvaluator;

@@ -47,14 +47,7 @@ pub(super) fn check_supports(knots: &KnotVector, parameters: &[f64]) -> Result<(
     };
     let mut next = 0;
     for i in 0..knots.len() {
-        while next < parameters.len() && !inside(i, parameters[next]) {
-            // Those beyond the support are left for later functions.
-            if parameters[next] >= flat[i + p + 1] && !(i + 1 == knots.len()) {
-                break;
-            }
-            next += 1;
-        }
-        if next == parameters.len() || !inside(i, parameters[next]) {
+        let Some(skipped) = parameters[next..].iter().position(|&t| inside(i, t)) else {
             let why = format!(
                 "function {} of {} lives on [{}, {}] and finds no condition of its own there \
                  (Schoenberg-Whitney): move knots or parameters, or add a condition",
@@ -64,8 +57,8 @@ pub(super) fn check_supports(knots: &KnotVector, parameters: &[f64]) -> Result<(
                 flat[i + p + 1]
             );
             return Err(Error::Spline { why });
-        }
-        next += 1;
+        };
+        next += skipped + 1;
     }
     Ok(())
 }
@@ -121,7 +114,7 @@ pub fn interpolate_over<P: Point + Rhs>(
         return fail(format!("parameter {} is outside the domain [{a}, {b}]", c.parameter));
     }
     let groups = all.chunk_by(|x, y| x.parameter == y.parameter);
-    check_supports(&knots, &spread(&knots, groups.map(|g| (g[0].parameter, g.len())))?)?;
+    check_supports(&knots, &spread(&knots, groups.map(|g| (g[0].parameter, g.len()))))?;
     let mut qr = BandedQr::new(n, knots.degree() + 1, P::default());
     for c in &all {
         let (first, values) = row(&knots, c.parameter, c.order);
@@ -135,21 +128,19 @@ pub fn interpolate_over<P: Point + Rhs>(
 
 /// Parameters of several conditions moved apart a little towards the inside, as the points whose
 /// limit derivatives are: so the rule for points serves conditions on derivatives.
-fn spread(knots: &KnotVector, groups: impl Iterator<Item = (f64, usize)>) -> Result<Vec<f64>> {
+fn spread(knots: &KnotVector, groups: impl Iterator<Item = (f64, usize)>) -> Vec<f64> {
     let (a, b) = knots.domain();
     let breaks = knots.breaks();
     let shortest = breaks.windows(2).map(|w| w[1] - w[0]).fold(f64::MAX, f64::min);
     let step = 1e-3 * shortest / MAX_DEGREE as f64;
     let mut out = Vec::new();
     for (t, count) in groups {
-        let first = match t {
-            t if t == a => t,
-            t if t == b => t - (count - 1) as f64 * step,
-            t => t - 0.5 * (count - 1) as f64 * step,
-        };
+        let width = (count - 1) as f64 * step;
+        let first = (t - 0.5 * width).clamp(a, b - width);
         out.extend((0..count).map(|k| if t == b && k + 1 == count { b } else { first + k as f64 * step }));
     }
-    Ok(out)
+    out.sort_by(f64::total_cmp);
+    out
 }
 
 #[cfg(test)]
