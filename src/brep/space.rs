@@ -14,17 +14,11 @@ pub trait Space: Point + 'static {
     /// What stands on the plane of a conic or of an offset: nothing in the plane, a direction in
     /// space.
     type Normal: Copy + PartialEq + std::fmt::Debug + Send + Sync;
-    /// Number of coordinates.
-    const DIMENSION: usize;
     /// Directions that the text gives for a conic's frame.
     const FRAME_DIRECTIONS: usize;
     /// Coordinates that the text gives for an offset's normal.
     const NORMAL_COORDINATES: usize;
 
-    /// A point from its coordinates; those beyond the dimension are ignored.
-    fn from_coordinates(c: [f64; 3]) -> Self;
-    /// The coordinates, padded with zeros.
-    fn coordinates(self) -> [f64; 3];
     /// The frame of a conic from the directions in the order of the text; `None` when they are
     /// null or parallel.
     fn conic_frame(origin: Self, directions: [Self; 3]) -> Option<Frame<Self>>;
@@ -74,16 +68,9 @@ pub fn unit<P: Point>(v: P) -> Option<P> {
 
 impl Space for DVec2 {
     type Normal = ();
-    const DIMENSION: usize = 2;
     const FRAME_DIRECTIONS: usize = 2;
     const NORMAL_COORDINATES: usize = 0;
 
-    fn from_coordinates(c: [f64; 3]) -> Self {
-        DVec2::new(c[0], c[1])
-    }
-    fn coordinates(self) -> [f64; 3] {
-        [self.x, self.y, 0.0]
-    }
     fn conic_frame(origin: Self, [x, y, _]: [Self; 3]) -> Option<Frame<Self>> {
         let x = unit(x)?;
         let side = if x.perp_dot(y) < 0.0 { -1.0 } else { 1.0 };
@@ -105,16 +92,9 @@ impl Space for DVec2 {
 
 impl Space for DVec3 {
     type Normal = DVec3;
-    const DIMENSION: usize = 3;
     const FRAME_DIRECTIONS: usize = 3;
     const NORMAL_COORDINATES: usize = 3;
 
-    fn from_coordinates(c: [f64; 3]) -> Self {
-        DVec3::from_array(c)
-    }
-    fn coordinates(self) -> [f64; 3] {
-        self.to_array()
-    }
     fn conic_frame(origin: Self, [z, x, _]: [Self; 3]) -> Option<Frame<Self>> {
         let z = unit(z)?;
         let mut x = unit(x)?;

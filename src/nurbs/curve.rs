@@ -20,10 +20,10 @@ pub trait Point:
 {
     /// Number of coordinates.
     const DIMENSION: usize;
-    /// One coordinate.
-    fn coordinate(self, index: usize) -> f64;
-    /// The point with these coordinates, the last unused in the plane.
+    /// A point from its coordinates; those beyond the dimension are ignored.
     fn from_coordinates(coordinates: [f64; 3]) -> Self;
+    /// The coordinates, padded with zeros.
+    fn coordinates(self) -> [f64; 3];
     /// Scalar product.
     fn dot(self, other: Self) -> f64;
     /// Whether every coordinate is finite.
@@ -36,8 +36,8 @@ pub trait Point:
 
 impl Point for DVec2 {
     const DIMENSION: usize = 2;
-    fn coordinate(self, index: usize) -> f64 {
-        self[index]
+    fn coordinates(self) -> [f64; 3] {
+        [self.x, self.y, 0.0]
     }
     fn from_coordinates([x, y, _]: [f64; 3]) -> Self {
         DVec2::new(x, y)
@@ -52,8 +52,8 @@ impl Point for DVec2 {
 
 impl Point for DVec3 {
     const DIMENSION: usize = 3;
-    fn coordinate(self, index: usize) -> f64 {
-        self[index]
+    fn coordinates(self) -> [f64; 3] {
+        self.to_array()
     }
     fn from_coordinates(coordinates: [f64; 3]) -> Self {
         DVec3::from_array(coordinates)

@@ -21,9 +21,8 @@ impl<'a, P: Point> CurveEvaluator<'a, P> {
     /// Prepares the curve; its cost is that of about as many points as there are poles.
     pub fn new(curve: &'a NurbsCurve<P>) -> Self {
         let pole = |(i, p): (usize, &P)| {
-            let mut four = [0.0, 0.0, 0.0, curve.weights().map_or(0.0, |w| w[i])];
-            (0..P::DIMENSION).for_each(|k| four[k] = p.coordinate(k));
-            four
+            let [x, y, z] = p.coordinates();
+            [x, y, z, curve.weights().map_or(0.0, |w| w[i])]
         };
         let poles: Vec<_> = curve.poles().iter().enumerate().map(pole).collect();
         let origins = nearest_to_zero(&poles, curve.knots().degree() + 1, 1);

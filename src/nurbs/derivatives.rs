@@ -46,7 +46,7 @@ impl KnotVector {
 fn origin<P: Point>(poles: impl Iterator<Item = P> + Clone, weights: impl Iterator<Item = f64>) -> (P, f64) {
     let mut nearest = [0.0; 3];
     for (k, least) in nearest.iter_mut().enumerate().take(P::DIMENSION) {
-        let along = poles.clone().map(|p| p.coordinate(k));
+        let along = poles.clone().map(|p| p.coordinates()[k]);
         *least = along.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
     }
     (P::from_coordinates(nearest), weights.fold(f64::INFINITY, f64::min))

@@ -86,7 +86,7 @@ impl Metric {
         let count = points.len() as f64;
         let centre = points.iter().fold(P::default(), |sum, &p| sum + p) / count;
         let share = |i: usize, j: usize| {
-            let product = |&p: &P| (p - centre).coordinate(i) * (p - centre).coordinate(j);
+            let product = |&p: &P| (p - centre).coordinates()[i] * (p - centre).coordinates()[j];
             points.iter().map(product).sum::<f64>() / count
         };
         let mut rest: Vec<usize> = (0..P::DIMENSION).collect();
@@ -119,7 +119,7 @@ impl Metric {
         let mut y: Vec<f64> = Vec::new();
         for (i, row) in &self.rows {
             let dot: f64 = row.iter().zip(&y).map(|(a, b)| a * b).sum();
-            y.push(((b - a).coordinate(*i) - dot) / row[row.len() - 1]);
+            y.push(((b - a).coordinates()[*i] - dot) / row[row.len() - 1]);
         }
         y.iter().map(|x| x * x).sum::<f64>().sqrt()
     }
