@@ -96,7 +96,7 @@ pub fn fit<P: Point + Rhs>(
         for (i, value) in (first..).zip(values) {
             match free.contains(&i) {
                 true => free_values.push(value * root),
-                false => rest = rest - known(i) * value,
+                false => rest -= known(i) * value,
             }
         }
         qr.add(first.clamp(free.start, free.end) - free.start, &free_values, rest * root);
