@@ -11,8 +11,8 @@ from matplotlib import colors, pyplot  # noqa: E402
 
 from ..occ.tessellation import Tessellation  # noqa: E402
 from . import raster, shading  # noqa: E402
-from .nodes import at_mesh_points  # noqa: E402
-from .refinement import refined  # noqa: E402
+from ..colours.nodes import at_mesh_points  # noqa: E402
+from ..colours.refinement import refined  # noqa: E402
 
 _SIZE = (640, 620)
 """Largest width and height of one view, in pixels of the finished picture."""
