@@ -39,6 +39,7 @@ def _halved(mesh: Tessellation, chosen: numpy.ndarray, side: numpy.ndarray) -> T
         points=_extended(mesh.points, first, second),
         normals=_extended(mesh.normals, first, second),
         faces=numpy.concatenate((mesh.faces, mesh.faces[first])),
+        parameters=_extended(mesh.parameters, first, second),
         triangles=numpy.concatenate((mesh.triangles[~chosen], *halves)),
     )
 
