@@ -122,20 +122,27 @@ def check(job: Job, progress: Optional[Progress] = None) -> dict:
     return field.info()
 
 
-def judged(result: Result, hot, target: str) -> judge.Verdict:
-    """Open CASCADE's verdict on the morphed solid, noted in the report.
+def complete(job: Job, progress: Optional[Progress] = None) -> Result:
+    """Morphs and has Open CASCADE judge the solid; its verdict is in the report.
 
-    A bad result of a good solid is a defect and refused, with ``target`` as what is not made; of
-    a bad one it is told in the report's warnings. Raises :class:`BladesmithError`.
+    A bad result of a good solid is a defect and refused, of a bad one it is told in the report.
+    Raises :class:`BladesmithError`, :class:`Cancelled` among them.
     """
+    result = run(job, progress)
     verdict = judge.judge(result.shape)
-    accept(result.report, verdict, hot, target)
+    if not (verdict.valid and verdict.closed):
+        solids = step.from_brep(job.brep).Solids
+        hot = solids[step.nearest_solid(solids, result.shape)]
+        accept(result.report, verdict, hot, f"{job.name} was not morphed")
     result.report.judged(verdict.valid, verdict.closed)
-    return verdict
+    return result
 
 
 def accept(report: Report, verdict: judge.Verdict, hot, target: str) -> None:
-    """Refuses a bad result of a good solid; of a bad one, notes it. See :func:`judged`."""
+    """Refuses a bad result of a good solid; of a bad one, tells it in the report.
+
+    ``target`` says what is not made. Raises :class:`BladesmithError`.
+    """
     if verdict.valid and verdict.closed:
         return
     what = "; ".join(verdict.complaints)
