@@ -2,8 +2,8 @@
 
 Rooms, each using only those before it: ``native`` (the core, by ctypes), ``model`` (plain data),
 ``occ`` (FreeCAD and Open CASCADE), ``operations`` (what is done, for command line and window),
-``colours`` (values on triangles), ``features``, ``viewproviders``, ``taskpanels``, ``commands`` (the
-workbench of FreeCAD), ``report`` (the page with pictures), ``cli`` (the command line).
+``colours`` (values on triangles), ``features``, ``viewproviders``, ``taskpanels``, ``commands``
+(the workbench of FreeCAD), ``report`` (the page with pictures), ``cli`` (the command line).
 Lengths are millimetres, angles degrees, faces and edges count from 1.
 """
 

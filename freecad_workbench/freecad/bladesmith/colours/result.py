@@ -107,11 +107,10 @@ class ShownResult:
             float(values[k]),
         )
 
-    def automatic_scale(self, name: str, steps: int = 0) -> Scale:
-        """A scale on which every value of a quantity lies, those at the nodes included."""
-        quantity = QUANTITIES[name]
+    def automatic_scale(self, name: str, steps: int = 0, logarithmic: bool = False) -> Scale:
+        """A scale up to the largest value of a quantity, those at the nodes included."""
         everything = numpy.concatenate((self.values(name), self._at_nodes(name)))
-        return automatic(everything, quantity.signed, quantity.logarithmic, steps)
+        return automatic(everything, QUANTITIES[name].signed, logarithmic, steps)
 
     def _at_nodes(self, name: str) -> numpy.ndarray:
         quantity = QUANTITIES[name]

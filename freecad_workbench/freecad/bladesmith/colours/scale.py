@@ -8,7 +8,7 @@ import numpy
 SMALLEST = 1e-9
 """Values below count as this on a logarithmic scale."""
 
-_DECADES = 4
+_DECADES = 3
 _NEAR_END = 0.055
 """A tick closer than this to an end of the bar would touch its label."""
 
@@ -62,13 +62,16 @@ class Scale:
 
 
 def automatic(values: numpy.ndarray, signed: bool, logarithmic: bool, steps: int = 0) -> Scale:
-    """A scale that shows all values: from zero, even about zero if ``signed``, or logarithmic."""
+    """A scale that shows all values: from zero, even about zero if ``signed``, or logarithmic.
+
+    A logarithmic one starts at a power of ten and leaves out a few small values.
+    """
     known = values[numpy.isfinite(values)]
     if logarithmic:
         top = max(float(known.max(initial=0)), 10 * SMALLEST)
         few = float(numpy.quantile(known, 0.02)) if len(known) else 0.0
-        bottom = max(few, top / 10**_DECADES, SMALLEST)
-        return Scale(bottom, max(top, 10 * bottom), steps, True)
+        bottom = 10.0 ** math.floor(math.log10(max(few, top / 10**_DECADES, SMALLEST)))
+        return Scale(bottom, top, steps, True)
     top = float(numpy.abs(known).max(initial=0)) or 1.0
     return Scale(-top if signed else 0.0, top, steps)
 
@@ -89,9 +92,22 @@ def _decades(low: float, high: float) -> list[float]:
 
 
 def labels(scale: Scale, unit_mm: float = 1.0) -> list[str]:
-    """The ticks as text, three digits of the largest; with powers of ten if far from 1."""
+    """The ticks as text in a unit: three digits of the largest, or each on its own."""
     shown = [value / unit_mm for value in scale.ticks()]
     digits = 2 - math.floor(math.log10(max(map(abs, shown))))
     if scale.logarithmic or not 0 <= digits <= 5:
-        return [f"{value:.3g}" for value in shown]
+        return [number(value) for value in shown]
     return [f"{value:.{digits}f}" for value in shown]
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def number(value: float) -> str:
+    """Three digits, with a power of ten where it is below 0.001 or above 99999."""
+    if value == 0 or 1e-3 <= abs(value) < 1e5:
+        return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    mantissa, exponent = f"{value:.2e}".split("e")
+    mantissa = mantissa.rstrip("0").rstrip(".")
+    power = "10" + str(int(exponent)).translate(_RAISED)
+    return {"1": power, "-1": f"-{power}"}.get(mantissa, f"{mantissa}·{power}")

@@ -234,3 +234,12 @@ def _mode_switch(provider):
     root = provider.RootNode
     children = [root.getChild(k) for k in range(root.getNumChildren())]
     return next(child for child in children if child.isOfType(coin.SoSwitch.getClassTypeId()))
+
+
+def zoom(view, points: numpy.ndarray, least: float) -> None:
+    """Turns the camera's centre to ``points`` and shows at least ``least`` mm around them."""
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    half = numpy.maximum(numpy.ptp(points, axis=0) * 0.75, least / 2 / 3**0.5)
+    box = coin.SbBox3f(*map(float, centre - half), *map(float, centre + half))
+    width, height = view.getSize()
+    view.getCameraNode().viewBoundingBox(box, width / max(height, 1), 1.0)
