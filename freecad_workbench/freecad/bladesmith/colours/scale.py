@@ -64,14 +64,15 @@ class Scale:
 def automatic(values: numpy.ndarray, signed: bool, logarithmic: bool, steps: int = 0) -> Scale:
     """A scale that shows all values: from zero, even about zero if ``signed``, or logarithmic.
 
-    A logarithmic one starts at a power of ten and leaves out a few small values.
+    A logarithmic one spans one to three decades and leaves out smaller values.
     """
     known = values[numpy.isfinite(values)]
     if logarithmic:
         top = max(float(known.max(initial=0)), 10 * SMALLEST)
         few = float(numpy.quantile(known, 0.02)) if len(known) else 0.0
-        bottom = 10.0 ** math.floor(math.log10(max(few, top / 10**_DECADES, SMALLEST)))
-        return Scale(bottom, top, steps, True)
+        lowest = math.ceil(math.log10(max(top / 10**_DECADES, SMALLEST)))
+        bottom = 10.0 ** max(lowest, math.floor(math.log10(max(few, SMALLEST))))
+        return Scale(min(bottom, top / 10), top, steps, True)
     top = float(numpy.abs(known).max(initial=0)) or 1.0
     return Scale(-top if signed else 0.0, top, steps)
 

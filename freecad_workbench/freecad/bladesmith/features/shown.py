@@ -22,7 +22,7 @@ def is_current(obj) -> bool:
 
 def report(obj) -> Report:
     """The figures of the last computation."""
-    return Report.from_json(obj.ReportJson)
+    return Report.of_text(obj.ReportJson)
 
 
 def solids(obj) -> tuple:

@@ -103,7 +103,7 @@ class Report:
         self.tolerance_mm = Change.of(document["solid"]["tolerance_mm"])
 
     @classmethod
-    def from_json(cls, text: str) -> "Report":
+    def of_text(cls, text: str) -> "Report":
         """The report that :meth:`to_json` wrote."""
         return cls(json.loads(text))
 

@@ -27,10 +27,10 @@ def _columns() -> list:
             None,
         ),
         (
-            tr("Bladesmith", "before"),
-            tr("Bladesmith", "The gap of the input, µm"),
-            lambda e: e.gap_mm.before * 1e3,
-            None,
+            tr("Bladesmith", "Opened, °"),
+            tr("Bladesmith", "How much the angle of a tangent joint grew"),
+            lambda e: e.angle_deg.after - e.angle_deg.before if e.tangent else -1.0,
+            lambda e: number(max(e.angle_deg.after - e.angle_deg.before, 0)) if e.tangent else "–",
         ),
         (
             tr("Bladesmith", "Angle, °"),
@@ -39,10 +39,10 @@ def _columns() -> list:
             None,
         ),
         (
-            tr("Bladesmith", "opened, °"),
-            tr("Bladesmith", "How much the angle of a tangent joint grew"),
-            lambda e: e.angle_deg.after - e.angle_deg.before if e.tangent else -1.0,
-            lambda e: number(max(e.angle_deg.after - e.angle_deg.before, 0)) if e.tangent else "–",
+            tr("Bladesmith", "Gap before, µm"),
+            tr("Bladesmith", "The gap of the input"),
+            lambda e: e.gap_mm.before * 1e3,
+            None,
         ),
     ]
 

@@ -25,7 +25,7 @@ class ReportPage:
     def open(self, obj) -> None:
         """Draws the page of a result and opens it."""
         try:
-            solids = [solid.copy() for solid in shown.solids(obj)]
+            solids = [solid.copy(True, True) for solid in shown.solids(obj)]
             report, nodes = shown.report(obj), shown.nodes(obj)
         except BladesmithError as error:
             self._complain(error)

@@ -59,11 +59,7 @@ class ResultPanel:
         report = shown.report(self._obj)
         self._say_verdict(report)
         self.form.edges.show_edges(report.edges, words.opened(report))
-        try:
-            self._steps = prepare(*shown.solids(self._obj), shown.nodes(self._obj))
-        except BladesmithError as error:
-            self._fail(str(error))
-            return
+        self._steps = self._prepared()
         self.form.busy.setValue(0)
         self.form.busy.show()
         self._turn.start()
@@ -115,6 +111,14 @@ class ResultPanel:
                 "Bladesmith", "The inputs have changed since: recompute to see their result."
             )
         self.form.verdict.setText(f'<span style="color:{colour}">●</span> {said}')
+
+    def _prepared(self):
+        """What :func:`prepare` gives, in its steps."""
+        solids = shown.solids(self._obj)
+        yield 0.0
+        nodes = shown.nodes(self._obj)
+        yield 0.0
+        return (yield from prepare(*solids, nodes))
 
     def _go_on(self) -> None:
         """Prepares a little more."""
@@ -190,7 +194,7 @@ class ResultPanel:
         places = scale.places(result.values(self.form.quantity))
         self._overlay.colour(places, bar, legend_image(bar, self._legend_text(scale)))
         self._mark()
-        self._choose_edges(self.form.edges.chosen_edges())
+        self._emphasise(self.form.edges.chosen_edges())
 
     def _legend_text(self, scale: Scale) -> LegendText:
         unit = self.form.unit
@@ -228,18 +232,21 @@ class ResultPanel:
             zoom(self._view, self._at(self._worst())[None], _SPOT_PART * self._result.size)
 
     def _choose_edges(self, numbers: list) -> None:
-        """Selects edges in the document, and emphasises them in the view."""
+        """Selects edges in the document, emphasises them in the view, and may zoom there."""
         name, document = self._obj.Name, self._obj.Document.Name
         FreeCADGui.Selection.clearSelection(document)
         for number_ in numbers:
             FreeCADGui.Selection.addSelection(document, name, f"Edge{number_}")
         if self.ready:
-            lines = [self._result.edge(k, self.form.factor) for k in numbers]
-            self._overlay.choose(lines)
-            lines = [line for line in lines if len(line)]
+            lines = [line for line in self._emphasise(numbers) if len(line)]
             if lines and self.form.zoom_edges.isChecked():
                 least = _EDGE_PART * self._result.size
                 zoom(self._view, numpy.concatenate(lines), least)
+
+    def _emphasise(self, numbers: list) -> list:
+        lines = [self._result.edge(k, self.form.factor) for k in numbers]
+        self._overlay.choose(lines)
+        return lines
 
 
 class _Watch:

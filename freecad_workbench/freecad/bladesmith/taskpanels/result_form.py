@@ -14,6 +14,7 @@ from .edges_table import EdgesView
 UNITS_MM = {"mm": 1.0, "µm": 1e-3}
 _MOST_STEPS = 24
 _LARGEST_FACTOR = 1e6
+_NARROW = 40
 _NOTE = "color: #b3261e;"
 
 
@@ -129,24 +130,29 @@ class ResultForm(QtGui.QWidget):
         names = titles()
         for name in QUANTITIES:
             self._quantity.addItem(names[name], name)
+        self._quantity.setSizeAdjustPolicy(QtGui.QComboBox.AdjustToMinimumContentsLength)
+        self._quantity.setMinimumContentsLength(12)
         self._unit = QtGui.QComboBox()
         self._unit.addItems(list(UNITS_MM))
+        self._unit.setMinimumWidth(_NARROW)
         self._automatic = QtGui.QCheckBox(tr("Bladesmith", "Automatic scale"), checked=True)
         self._low, self._high = QtGui.QLineEdit(enabled=False), QtGui.QLineEdit(enabled=False)
         self._steps = QtGui.QSpinBox(maximum=_MOST_STEPS)
         self._steps.setSpecialValueText(tr("Bladesmith", "smooth"))
         self._logarithmic = QtGui.QCheckBox(tr("Bladesmith", "Logarithmic"))
         self._complaint = QtGui.QLabel(wordWrap=True, styleSheet=_NOTE, visible=False)
+        for field in (self._low, self._high, self._steps):
+            field.setMinimumWidth(_NARROW)
         grid.addWidget(self._quantity, 0, 0, 1, 3)
         grid.addWidget(self._unit, 0, 3)
-        grid.addWidget(self._automatic, 1, 0, 1, 2)
-        grid.addWidget(self._logarithmic, 1, 2, 1, 2)
+        grid.addWidget(self._automatic, 1, 0, 1, 4)
         grid.addWidget(QtGui.QLabel(tr("Bladesmith", "From")), 2, 0)
         grid.addWidget(self._low, 2, 1)
         grid.addWidget(QtGui.QLabel(tr("Bladesmith", "to")), 2, 2)
         grid.addWidget(self._high, 2, 3)
         grid.addWidget(QtGui.QLabel(tr("Bladesmith", "Steps")), 3, 0)
         grid.addWidget(self._steps, 3, 1)
+        grid.addWidget(self._logarithmic, 3, 2, 1, 2)
         grid.addWidget(self._complaint, 4, 0, 1, 4)
         self._quantity.currentIndexChanged.connect(lambda _: self.quantity_chosen.emit())
         self._automatic.toggled.connect(self._let_type)
@@ -172,12 +178,12 @@ class ResultForm(QtGui.QWidget):
         self.enlarged_shape = QtGui.QPushButton(tr("Bladesmith", "Enlarged"))
         self.outline = QtGui.QCheckBox(tr("Bladesmith", "Edges of the input"))
         self.worst = QtGui.QCheckBox(tr("Bladesmith", "Mark the worst spot"), checked=True)
-        self.zoom_worst = QtGui.QPushButton(tr("Bladesmith", "Zoom"))
+        self.zoom_worst = QtGui.QPushButton(tr("Bladesmith", "Zoom"), minimumWidth=_NARROW)
         grid.addWidget(QtGui.QLabel(tr("Bladesmith", "Movement")), 0, 0)
         grid.addWidget(self._factor, 0, 1, 1, 2)
         buttons = (self.input_shape, self.result_shape, self.enlarged_shape)
         for column, button in enumerate(buttons):
-            button.setAutoDefault(False)
+            button.setMinimumWidth(_NARROW)
             grid.addWidget(button, 1, column)
         grid.addWidget(self.outline, 2, 0, 1, 3)
         grid.addWidget(self.worst, 3, 0, 1, 2)

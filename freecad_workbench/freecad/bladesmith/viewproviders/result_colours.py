@@ -108,8 +108,9 @@ class _Surface:
         hints = coin.SoShapeHints()
         hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
         material = coin.SoMaterial()
-        material.diffuseColor = (0.92, 0.92, 0.92)
-        material.ambientColor = (0.4, 0.4, 0.4)
+        # Some light from all sides keeps colours close to the legend's.
+        material.emissiveColor = (0.38, 0.38, 0.38)
+        material.diffuseColor = (0.62, 0.62, 0.62)
         material.specularColor = (0.12, 0.12, 0.12)
         material.shininess = 0.3
         behind = coin.SoPolygonOffset()
