@@ -8,7 +8,7 @@ use std::process::Command;
 use bladesmith::ffi::MorphOptions;
 
 /// Sources of the header in the order in which it presents them.
-const SOURCES: [&str; 7] = ["status", "library", "progress", "field", "part", "options", "morph"];
+const SOURCES: [&str; 8] = ["status", "library", "progress", "field", "part", "options", "check", "morph"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

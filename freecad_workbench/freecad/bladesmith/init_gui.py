@@ -1,12 +1,23 @@
-"""Bladesmith in FreeCAD's window: the workbench with its toolbar and menu."""
+"""Bladesmith in FreeCAD's window: workbench, file types and preferences page."""
 
 from pathlib import Path
 
 import FreeCADGui
 
-from .commands import COMMANDS, register
+from .commands import exchange
+from .commands.morph import Morph
+from .commands.names import COMMANDS, icon
+from .commands.report import OpenReport
+from .commands.step import ExportStep, ImportStep
 
-_ICONS = Path(__file__).parent / "resources" / "icons"
+_RESOURCES = Path(__file__).parent / "resources"
+
+_REGISTERED = {
+    "Bladesmith_ImportStep": ImportStep,
+    "Bladesmith_Morph": Morph,
+    "Bladesmith_OpenReport": OpenReport,
+    "Bladesmith_ExportStep": ExportStep,
+}
 
 
 class BladesmithWorkbench(FreeCADGui.Workbench):
@@ -14,17 +25,25 @@ class BladesmithWorkbench(FreeCADGui.Workbench):
 
     MenuText = "Bladesmith"
     ToolTip = "Hot-to-cold morphing of CAD solids by a finite-element displacement field"
-    Icon = str(_ICONS / "Bladesmith.svg")
+    Icon = icon("Bladesmith")
 
     def Initialize(self):
         """Called by FreeCAD when the workbench is first chosen."""
-        self.appendToolbar("Bladesmith", COMMANDS)
-        self.appendMenu("Bladesmith", COMMANDS)
+        known = {"Separator", *FreeCADGui.listCommands()}
+        commands = [name for name in COMMANDS if name in known]
+        self.appendToolbar("Bladesmith", commands)
+        self.appendMenu("Bladesmith", commands)
 
     def GetClassName(self):
         """The kind of workbench that is written in Python."""
         return "Gui::PythonWorkbench"
 
 
-register()
+FreeCADGui.addLanguagePath(str(_RESOURCES / "translations"))
+FreeCADGui.updateLocale()
+FreeCADGui.addIconPath(str(_RESOURCES / "icons"))
+FreeCADGui.addPreferencePage(str(_RESOURCES / "panels" / "preferences.ui"), "Bladesmith")
+for name, command in _REGISTERED.items():
+    FreeCADGui.addCommand(name, command())
+exchange.register()
 FreeCADGui.addWorkbench(BladesmithWorkbench())

@@ -7,6 +7,7 @@ folder of a checkout; the ``lib`` folder of an installation; the system's librar
 import ctypes
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from .errors import SetupError
@@ -35,8 +36,8 @@ def _candidates() -> list[str]:
     return [str(file) for file in files if file.is_file()] + _file_names()
 
 
-def load() -> ctypes.CDLL:
-    """The loaded library, its ABI version checked.
+def load(calls: Iterable[str] = ()) -> ctypes.CDLL:
+    """The loaded library, its ABI version checked, with all of ``calls``.
 
     Raises :class:`SetupError` where there is none, or one of another version.
     """
@@ -48,14 +49,15 @@ def load() -> ctypes.CDLL:
         except OSError as reason:
             reasons.append(str(reason))
             continue
-        return _checked(library, name)
+        return _checked(library, name, calls)
     raise SetupError(
-        f"the library of Bladesmith was not found ({'; '.join(reasons)}): run 'make build' in the "
-        "checkout, or name the file in the environment variable BLADESMITH_LIBRARY"
+        f"the library of Bladesmith was not found ({'; '.join(reasons)}): install the add-on "
+        "Bladesmith whole, or run 'make build' in its checkout, or name the file in the "
+        "environment variable BLADESMITH_LIBRARY"
     )
 
 
-def _checked(library: ctypes.CDLL, name: str) -> ctypes.CDLL:
+def _checked(library: ctypes.CDLL, name: str, calls: Iterable[str]) -> ctypes.CDLL:
     try:
         library.bladesmith_abi_version.restype = ctypes.c_uint32
         found = library.bladesmith_abi_version()
@@ -64,6 +66,12 @@ def _checked(library: ctypes.CDLL, name: str) -> ctypes.CDLL:
     if found != ABI_VERSION:
         raise SetupError(
             f"{name} has C interface {found}, this package needs {ABI_VERSION}: "
+            "run 'make build' in the checkout, or install both from one release"
+        )
+    missing = [call for call in calls if not hasattr(library, call)]
+    if missing:
+        raise SetupError(
+            f"{name} is older than this package, it has no {missing[0]}: "
             "run 'make build' in the checkout, or install both from one release"
         )
     return library

@@ -4,20 +4,17 @@ A :class:`Job` is plain data: equal jobs give equal results, bit for bit. Any th
 """
 
 import time
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Optional
 
+from .. import native
 from ..model import MorphOptions, Report
-from ..native import BladesmithError, Cancelled, Field, Morphed, Part
+from ..native import BladesmithError, Field, Morphed, Part
 from ..occ import judge, step
 
 Progress = Callable[[str, float], bool]
 """Gets the stage and the fraction done; returns False to cancel."""
-
-_CHECKING = ("placing nodes on faces", "fitting each face")
-"""The core's first stages; after them, field and part are known to belong together."""
 
 
 @dataclass(frozen=True)
@@ -101,25 +98,14 @@ def run(job: Job, progress: Optional[Progress] = None) -> Result:
     return Result(brep, step.from_brep(brep), report, morphed)
 
 
-def check(job: Job, progress: Optional[Progress] = None) -> dict:
-    """What the field holds, see :meth:`Field.info`; raises what a run would refuse it for.
+def check(job: Job, progress: Optional[Progress] = None) -> tuple[dict, dict]:
+    """What the field holds, and how it lies on the part: :meth:`Field.info`, :func:`native.check`.
 
-    Goes through the first stages of a run, until field and part are known to belong together.
+    Raises what a run would refuse the input for.
     """
     part = Part.read(job.brep, job.name)
     field = job.field.read()
-    asked = []
-
-    def until_placed(stage: str, fraction: float) -> bool:
-        if progress is not None and not progress(stage, fraction):
-            asked.append(stage)
-        return stage in _CHECKING and not asked
-
-    with suppress(Cancelled):
-        Morphed.morph(part, field, job.options.settings(), until_placed)
-    if asked:
-        raise Cancelled("the check was cancelled")
-    return field.info()
+    return field.info(), native.check(part, field, job.options.settings(), progress)
 
 
 def complete(job: Job, progress: Optional[Progress] = None) -> Result:
