@@ -8,6 +8,7 @@ from .commands import exchange
 from .commands.morph import Morph
 from .commands.names import COMMANDS, icon
 from .commands.report import OpenReport
+from .commands.result import ShowResult
 from .commands.step import ExportStep, ImportStep
 
 _RESOURCES = Path(__file__).parent / "resources"
@@ -15,6 +16,7 @@ _RESOURCES = Path(__file__).parent / "resources"
 _REGISTERED = {
     "Bladesmith_ImportStep": ImportStep,
     "Bladesmith_Morph": Morph,
+    "Bladesmith_ShowResult": ShowResult,
     "Bladesmith_OpenReport": OpenReport,
     "Bladesmith_ExportStep": ExportStep,
 }

@@ -1,16 +1,15 @@
 """How each point of a mesh moves between two solids that share their parameters, with its tangents.
 
-Exact where a point's parameters are known, faces without nodes included.
+Exact on every face, those without nodes included.
 """
 
 import numpy
 
-from ..occ.tessellation import Tessellation, frames
-from .nodes import weighted
+from ..occ.tessellation import Tessellation, frames, parameters_of
 
-_FAR = 1 / 100
+_FAR = 1 / 200
 """Distance of a point from the one at its parameters, relative to the shape's diagonal, from which
-the parameters are not believed: between the two sides of a seam they jump."""
+they are sought anew: between the two sides of a seam they jump."""
 
 _FLAT = 1e-9
 
@@ -21,16 +20,13 @@ def movement(mesh: Tessellation, before, after, size: float) -> tuple[numpy.ndar
     A frame is S, Su, Sv. ``before`` and ``after`` are the face, ``size`` the diagonal of the whole
     shape in mm.
     """
-    start = frames(before, mesh.parameters)
-    change = frames(after, mesh.parameters) - start
-    believed = numpy.linalg.norm(start[:, 0] - mesh.points, axis=1) <= size * _FAR
-    if believed.any() and not believed.all():
-        both = numpy.stack((start, change), axis=1).reshape(-1, 18)
-        doubted = mesh.points[~believed]
-        carried = weighted(doubted, mesh.points[believed], both[believed]).reshape(-1, 2, 3, 3)
-        start[~believed], change[~believed] = carried[:, 0], carried[:, 1]
-        start[~believed, 0] = doubted
-    return start, change
+    parameters = mesh.parameters.copy()
+    start = frames(before, parameters)
+    far = numpy.linalg.norm(start[:, 0] - mesh.points, axis=1) > size * _FAR
+    if far.any():
+        parameters[far] = parameters_of(before, mesh.points[far])
+        start[far] = frames(before, parameters[far])
+    return start, frames(after, parameters) - start
 
 
 def normals(mesh: Tessellation, moved: numpy.ndarray) -> numpy.ndarray:

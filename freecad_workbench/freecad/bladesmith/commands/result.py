@@ -1,45 +1,42 @@
-"""The command that shows the chosen morph's result."""
+"""``Bladesmith_ShowResult``: the selected morph's result in the 3-D view, and its panel."""
 
 import FreeCADGui
 
 from ..features import shown
-from ..taskpanels.result import ResultPanel
-
-NAME = "Bladesmith_ShowResult"
+from .names import icon
 
 
 class ShowResult:
-    """Colours on the solid, enlarged movement, edges and report of the selected morph."""
+    """Colours on the solid, enlarged movement, worst spot, joints by edge."""
 
     def GetResources(self):
-        """Called by FreeCAD: icon and texts."""
+        """Texts and icon."""
         return {
-            "Pixmap": NAME,
+            "Pixmap": icon("Bladesmith_ShowResult"),
             "MenuText": "Show result",
-            "ToolTip": "Displacement and deviation as colours, enlarged movement, joints by edge",
+            "ToolTip": "Shows displacement and deviation as colours, and the joints edge by edge",
         }
 
     def IsActive(self):
-        """Called by FreeCAD: with one computed morph selected, or a single one in the document."""
-        return not FreeCADGui.Control.activeDialog() and _chosen() is not None
+        """With one computed morph, a 3-D view, and no other panel."""
+        return (
+            not FreeCADGui.Control.activeDialog()
+            and hasattr(FreeCADGui.activeView(), "getSceneGraph")
+            and chosen_result() is not None
+        )
 
     def Activated(self):
-        """Called by FreeCAD: opens the panel."""
-        show(_chosen())
+        """Opens the panel."""
+        from ..taskpanels.result import ResultPanel
+
+        FreeCADGui.Control.showDialog(ResultPanel(chosen_result(), FreeCADGui.activeView()))
 
 
-def show(obj) -> ResultPanel:
-    """Opens the panel for a computed morph, in its document's 3-D view."""
-    panel = ResultPanel(obj, FreeCADGui.getDocument(obj.Document.Name).ActiveView)
-    FreeCADGui.Control.showDialog(panel)
-    return panel
-
-
-def _chosen():
-    selected = FreeCADGui.Selection.getSelection()
-    document = FreeCADGui.ActiveDocument
-    if document is None or not hasattr(document.ActiveView, "getSceneGraph"):
+def chosen_result():
+    """The selected computed morph, or the only one of the document; None without."""
+    if FreeCADGui.ActiveDocument is None:
         return None
-    among = selected or document.Document.Objects
+    document = FreeCADGui.ActiveDocument.Document
+    among = FreeCADGui.Selection.getSelection(document.Name) or document.Objects
     found = [obj for obj in among if shown.has_result(obj)]
     return found[0] if len(found) == 1 else None

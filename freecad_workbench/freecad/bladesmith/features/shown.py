@@ -1,11 +1,8 @@
 """What a computed morph offers to be shown: its report, both solids, and arrays by node."""
 
-import numpy
-
 from ..model import Report
 from ..native import InputError
 from ..occ.step import nearest_solid
-from ..occ.tessellation import vectors
 
 _OUTPUTS = ("ReportJson", "NodeIds", "NodeFaces", "NodeFeet", "NodeDisplacements", "NodeDeviations")
 
@@ -39,6 +36,10 @@ def solids(obj) -> tuple:
 
 def nodes(obj) -> dict:
     """Arrays by node and face: ids, faces from 1, feet, displacements, deviations (mm)."""
+    import numpy
+
+    from ..occ.tessellation import vectors
+
     return {
         "ids": numpy.array(obj.NodeIds, dtype=numpy.int64),
         "faces": numpy.array(obj.NodeFaces, dtype=numpy.int64),

@@ -5,6 +5,7 @@ Import only after FreeCAD: numpy before it crashes on Debian 12.
 
 from dataclasses import dataclass, fields
 
+import FreeCAD
 import numpy
 
 _RELATIVE_DEFLECTION = 1 / 250
@@ -79,6 +80,21 @@ def frames(face, parameters: numpy.ndarray) -> numpy.ndarray:
         ),
         axis=1,
     )
+
+
+def parameters_of(face, points: numpy.ndarray) -> numpy.ndarray:
+    """u, v (n, 2) of the points of a face's surface nearest to ``points``, within its range."""
+    surface, bounds = face.Surface, face.ParameterRange
+    found = numpy.array([surface.parameter(FreeCAD.Vector(*p)) for p in points.tolist()])
+    periods = (
+        surface.UPeriod() if surface.isUPeriodic() else 0.0,
+        surface.VPeriod() if surface.isVPeriodic() else 0.0,
+    )
+    for column, period in enumerate(periods):
+        if period:
+            first = bounds[2 * column]
+            found[:, column] = first + (found[:, column] - first) % period
+    return found
 
 
 def edge_lines(before, after) -> list:

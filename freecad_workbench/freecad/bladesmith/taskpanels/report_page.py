@@ -1,56 +1,58 @@
-"""The report's HTML page, written beside the window and opened in the user's browser."""
+"""The report's HTML page, drawn beside the window and opened in the user's browser."""
 
 import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from FreeCAD import Qt
+import FreeCAD
+import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..features import shown
 from ..native import BladesmithError, SetupError
+from .words import for_panel
 from .worker import Worker
 
 
-class ReportPage:
-    """Opens pages on demand; ``button`` rests while one is drawn."""
+class ReportPage(QtCore.QObject):
+    """Draws pages on demand, one at a time, and opens them."""
 
-    def __init__(self, button):
-        self._button = button
-        self._text = button.text()
+    busy = QtCore.Signal(bool)
+    """Gets whether a page is being drawn, when that changes."""
+
+    def __init__(self):
+        super().__init__()
         self._worker = Worker()
         self._worker.done.connect(self._open)
         self._worker.failed.connect(self._complain)
 
-    def open(self, obj) -> None:
-        """Draws the page of a result and opens it."""
+    def draw(self, obj) -> None:
+        """Draws and opens the page about a computed morph."""
         try:
+            # Copies with their triangles: drawing must neither wait for nor change the document's.
             solids = [solid.copy(True, True) for solid in shown.solids(obj)]
-            report, nodes = shown.report(obj), shown.nodes(obj)
         except BladesmithError as error:
             self._complain(error)
             return
-        tolerance = obj.Tolerance.Value
-        self._button.setEnabled(False)
-        self._button.setText(Qt.translate("Bladesmith", "Drawing the report …"))
+        report, nodes, tolerance = shown.report(obj), shown.nodes(obj), float(obj.Tolerance)
         self._worker.start(lambda _progress: write(report, solids, nodes, tolerance))
+        self.busy.emit(True)
 
     def forget(self) -> None:
         """Lets a page that is being drawn go unopened."""
-        self._worker.forget()
-
-    def _rest(self) -> None:
-        self._button.setEnabled(True)
-        self._button.setText(self._text)
+        if self._worker.running:
+            self._worker.forget()
+            self.busy.emit(False)
 
     def _open(self, path: str) -> None:
-        self._rest()
+        self.busy.emit(False)
         QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(path))
 
     def _complain(self, error: BladesmithError) -> None:
-        self._rest()
-        title = Qt.translate("Bladesmith", "Report")
-        QtGui.QMessageBox.warning(self._button.window(), title, str(error))
+        self.busy.emit(False)
+        text = for_panel(str(error))
+        FreeCAD.Console.PrintError(f"Bladesmith: {text}\n")
+        QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), "Bladesmith", text)
 
 
 def write(report, solids, nodes: dict, tolerance_mm: float) -> str:

@@ -19,6 +19,7 @@ from ..viewproviders.legend import LegendText, legend_image, mark_image
 from ..viewproviders.result_colours import Overlay, zoom
 from .report_page import ReportPage
 from .result_form import UNITS_MM, ResultForm, titles
+from .words import for_panel
 
 _SLICE_S = 0.05
 """Time for which colours are prepared before the window gets its turn."""
@@ -39,7 +40,7 @@ class ResultPanel:
         self.form = ResultForm()
         self._obj, self._view = obj, view
         self._overlay = Overlay()
-        self._page = ReportPage(self.form.report)
+        self._page = ReportPage()
         self._turn = QtCore.QTimer(interval=0)
         self._turn.timeout.connect(self._go_on)
         self._steps = self._result = self._scale = None
@@ -95,10 +96,11 @@ class ResultPanel:
         form.result_shape.clicked.connect(lambda: form.set_factor(1))
         form.enlarged_shape.clicked.connect(self._enlarge)
         form.zoom_worst.clicked.connect(self._zoom_worst)
-        form.report.clicked.connect(lambda: self._page.open(self._obj))
+        self._page.busy.connect(form.show_drawing)
+        form.report.clicked.connect(lambda: self._page.draw(self._obj))
 
     def _say_verdict(self, report: Report) -> None:
-        tolerance = self._obj.Tolerance.Value
+        tolerance = float(self._obj.Tolerance)
         colour = _VERDICT_COLOURS[words.state(report, tolerance)]
         text = Qt.translate("Bladesmith", "Largest deviation {0} mm, tolerance {1} mm.")
         said = text.format(number(report.deviation_mm.max), number(tolerance))
@@ -126,18 +128,17 @@ class ResultPanel:
         try:
             while time.monotonic() < end:
                 self.form.busy.setValue(round(100 * next(self._steps)))
+            return
         except StopIteration as stop:
-            self._turn.stop()
-            self.form.busy.hide()
-            self._show(stop.value)
-        except (BladesmithError, RuntimeError, ValueError) as error:
-            self._turn.stop()
-            self._fail(str(error))
-
-    def _fail(self, text: str) -> None:
+            result = stop.value
+        except BladesmithError as error:
+            result = None
+            self._overlay.detach()
+            self.form.verdict.setText(for_panel(str(error)))
+        self._turn.stop()
         self.form.busy.hide()
-        self._overlay.detach()
-        self.form.verdict.setText(text)
+        if result is not None:
+            self._show(result)
 
     def _show(self, result) -> None:
         self._result = result

@@ -61,7 +61,8 @@ class ResultForm(QtGui.QWidget):
         layout.setContentsMargins(4, 4, 4, 4)
         self.verdict = QtGui.QLabel(wordWrap=True)
         self.busy = QtGui.QProgressBar(maximum=100, textVisible=False, maximumHeight=6)
-        self.report = QtGui.QPushButton(Qt.translate("Bladesmith", "Open the report …"))
+        self.report = QtGui.QPushButton()
+        self.show_drawing(False)
         layout.addWidget(self.verdict)
         layout.addWidget(self.busy)
         layout.addWidget(self._colours())
@@ -83,6 +84,13 @@ class ResultForm(QtGui.QWidget):
     def factor(self) -> float:
         """By what the movement is multiplied."""
         return self._factor.value()
+
+    def show_drawing(self, busy: bool) -> None:
+        """Says on the button whether the report is being drawn."""
+        tr = Qt.translate
+        drawing, idle = tr("Bladesmith", "Drawing the report …"), tr("Bladesmith", "Open report")
+        self.report.setEnabled(not busy)
+        self.report.setText(drawing if busy else idle)
 
     def set_factor(self, factor: float) -> None:
         """Multiplies the movement, as if it were typed."""
