@@ -24,8 +24,8 @@ def for_panel(text: str) -> str:
         r"--displacement-scale (\d+)": translate("Scale: {0}"),
         r"--displacement-scale": translate("the field Scale"),
         r"--solid N": translate("the field Solid"),
-        r"--match-tolerance": translate("a larger value in Nodes may lie off"),
-        r"--extrapolate": translate("a tick to Move areas far from any node too"),
+        r"--match-tolerance": translate("a larger value at Nodes may lie off"),
+        r"--extrapolate": translate("a tick at Extrapolate"),
     }
     for option, field in fields.items():
         text = re.sub(option, lambda found, f=field: f.format(*found.groups()), text)
