@@ -4,7 +4,10 @@ from ..model import Report
 from ..native import InputError
 from ..occ.step import nearest_solid
 
-_OUTPUTS = ("ReportJson", "NodeIds", "NodeFaces", "NodeFeet", "NodeDisplacements", "NodeDeviations")
+NODE_ARRAYS = ("ids", "faces", "feet", "displacements", "deviations")
+"""Numbers (n,) of nodes and of their faces from 1; vectors (n, 3)."""
+
+_OUTPUTS = ("ReportJson", *(f"Node{name.capitalize()}" for name in NODE_ARRAYS))
 
 
 def has_result(obj) -> bool:
@@ -34,19 +37,19 @@ def solids(obj) -> tuple:
     return before, after
 
 
-def nodes(obj) -> dict:
-    """Arrays by node and face: ids, faces from 1, feet, displacements, deviations (mm)."""
+def node_array(obj, name: str):
+    """One of :data:`NODE_ARRAYS`, row by row for each node on a face; lengths in mm."""
     import numpy
 
     from ..occ.tessellation import vectors
 
-    return {
-        "ids": numpy.array(obj.NodeIds, dtype=numpy.int64),
-        "faces": numpy.array(obj.NodeFaces, dtype=numpy.int64),
-        "feet": vectors(obj.NodeFeet),
-        "displacements": vectors(obj.NodeDisplacements),
-        "deviations": vectors(obj.NodeDeviations),
-    }
+    rows = getattr(obj, f"Node{name.capitalize()}")
+    return numpy.array(rows, dtype=int) if name in ("ids", "faces") else vectors(rows)
+
+
+def nodes(obj) -> dict:
+    """All of :data:`NODE_ARRAYS` by name."""
+    return {name: node_array(obj, name) for name in NODE_ARRAYS}
 
 
 def _alike(before, after) -> bool:

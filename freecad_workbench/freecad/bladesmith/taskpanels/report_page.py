@@ -46,13 +46,18 @@ class ReportPage(QtCore.QObject):
 
     def _open(self, path: str) -> None:
         self.busy.emit(False)
-        QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(path))
+        show_in_browser(path)
 
     def _complain(self, error: BladesmithError) -> None:
         self.busy.emit(False)
         text = for_panel(str(error))
         FreeCAD.Console.PrintError(f"Bladesmith: {text}\n")
         QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), "Bladesmith", text)
+
+
+def show_in_browser(path: str) -> None:
+    """Opens a file with what the desktop has for it."""
+    QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(path))
 
 
 def write(report, solids, nodes: dict, tolerance_mm: float) -> str:

@@ -1,7 +1,5 @@
 """The panel that shows a result: colours, enlarged movement, the worst spot, edges, the page."""
 
-import time
-
 import FreeCAD
 import FreeCADGui
 import numpy
@@ -20,9 +18,6 @@ from ..viewproviders.result_colours import Overlay, zoom
 from .report_page import ReportPage
 from .result_form import UNITS_MM, ResultForm, titles
 from .words import for_panel
-
-_SLICE_S = 0.05
-"""Time for which colours are prepared before the window gets its turn."""
 
 _SMALL_MM = 0.01
 """A scale that ends below is better read in micrometres."""
@@ -118,16 +113,18 @@ class ResultPanel:
         """What :func:`prepare` gives, in its steps."""
         solids = shown.solids(self._obj)
         yield 0.0
-        nodes = shown.nodes(self._obj)
-        yield 0.0
-        return (yield from prepare(*solids, nodes))
+        nodes = {}
+        for name in shown.NODE_ARRAYS:
+            nodes[name] = shown.node_array(self._obj, name)
+            yield 0.0
+        result = yield from prepare(*solids, nodes)
+        yield 1.0
+        return result
 
     def _go_on(self) -> None:
         """Prepares a little more."""
-        end = time.monotonic() + _SLICE_S
         try:
-            while time.monotonic() < end:
-                self.form.busy.setValue(round(100 * next(self._steps)))
+            self.form.busy.setValue(round(100 * next(self._steps)))
             return
         except StopIteration as stop:
             result = stop.value

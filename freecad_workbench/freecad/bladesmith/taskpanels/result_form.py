@@ -69,6 +69,7 @@ class ResultForm(QtGui.QWidget):
         layout.addWidget(self._shape())
         layout.addWidget(self._edges(), 1)
         layout.addWidget(self.report)
+        self._name_widgets()
 
     @property
     def quantity(self) -> str:
@@ -209,6 +210,12 @@ class ResultForm(QtGui.QWidget):
         grid.addWidget(self.edges, 0, 0)
         grid.addWidget(self.zoom_edges, 1, 0)
         return box
+
+    def _name_widgets(self) -> None:
+        """Gives every field its attribute's name, under which others find it in the window."""
+        for name, widget in vars(self).items():
+            if isinstance(widget, QtGui.QWidget):
+                widget.setObjectName(f"result_{name.strip('_')}")
 
     def _let_type(self, automatic: bool):
         for field in (self._low, self._high):

@@ -11,6 +11,9 @@ from pivy import coin
 
 from .legend import to_coin
 
+NAME = "BladesmithResult"
+"""Name of the node that holds all that is shown."""
+
 _TEXTURE_WIDTH = 1024
 _KNOWN, _UNKNOWN = 0.25, 0.75
 """Rows of the texture: colours of values, and grey where no value is known."""
@@ -24,6 +27,7 @@ class Overlay:
 
     def __init__(self):
         self.root = coin.SoSeparator()
+        self.root.setName(NAME)
         unpickable = coin.SoPickStyle()
         unpickable.style = coin.SoPickStyle.UNPICKABLE
         self._surface = _Surface()
