@@ -77,6 +77,23 @@ def morph(part: Path, field: Path, *options: str) -> Morph:
     return Morph(done.returncode, done.stdout, done.stderr, output, document)
 
 
+_USER_CONFIGURATION = """\
+<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
+<FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp">
+<FCParamGroup Name="Preferences"><FCParamGroup Name="General">
+<FCText Name="AutoloadModule">PartWorkbench</FCText>
+<FCText Name="Language">{language}</FCText>
+</FCParamGroup></FCParamGroup></FCParamGroup></FCParamGroup></FCParameters>
+"""
+
+
+def user_home(folder: Path, language: str = "English") -> None:
+    """Makes ``folder`` a user home of FreeCAD in which the add-on is installed, by a link."""
+    (folder / "Mod").mkdir()
+    (folder / "Mod" / "Bladesmith").symlink_to(ROOT)
+    (folder / "user.cfg").write_text(_USER_CONFIGURATION.format(language=language))
+
+
 def packed(name: str) -> Path:
     """A small case that ships with the tests: ``base.step``, ``base.frd``, ``base.inp`` ..."""
     return P5 / f"{name}.gz"

@@ -37,6 +37,11 @@ def error(text: str) -> str:
     return _line(for_panel(text), _BAD)
 
 
+def plain(text: str) -> str:
+    """A line without a judgement."""
+    return _line(text)
+
+
 def check(info: dict, placement: dict) -> str:
     """What the field holds, how it lies on the part, and what to expect."""
     largest = info["largest_displacement"]

@@ -27,6 +27,7 @@ class MorphView:
     def attach(self, view):
         """Called when the object appears, also after a document was opened."""
         self.Object = view.Object
+        self.panel = None
         self._place = coin.SoTranslation()
         view.RootNode.insertChild(self._place, 0)
         _add_properties(view)
@@ -46,11 +47,13 @@ class MorphView:
         document = view.Object.Document
         if not document.HasPendingTransaction:
             document.openTransaction("Edit morph")
-        FreeCADGui.Control.showDialog(MorphPanel(view.Object))
+        self.panel = MorphPanel(view.Object)
+        FreeCADGui.Control.showDialog(self.panel)
         return True
 
     def unsetEdit(self, _view, _mode=0):
         """Closes the panel."""
+        self.panel = None
         FreeCADGui.Control.closeDialog()
         return True
 
