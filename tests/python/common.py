@@ -139,6 +139,26 @@ def probes(path: Path) -> list:
     return found
 
 
+def frd_rows(path: Path) -> list:
+    """(number, point, displacement) of the nodes of a small ASCII ``.frd`` file, gzipped."""
+    lines = gzip.decompress(path.read_bytes()).decode().splitlines()
+    starts = [i for i, line in enumerate(lines) if line.split()[:1] == ["2C"]]
+    moved = [i for i, line in enumerate(lines) if line.startswith(" -4") and "DISP" in line]
+    points, displacements = (_frd_block(lines, start) for start in (starts[0], moved[-1]))
+    return [(n, points[n], displacements[n]) for n in sorted(points)]
+
+
+def _frd_block(lines: list, start: int) -> dict:
+    found = {}
+    for line in lines[start + 1 :]:
+        if line.startswith(" -3"):
+            return found
+        if line.startswith(" -1"):
+            values = [float(line[13 + 12 * k : 25 + 12 * k]) for k in range(3)]
+            found[int(line[3:13])] = tuple(values)
+    return found
+
+
 def probe_errors(hot, cold, rows, factor: float) -> list:
     """By how much, in mm, the cold solid misses each probe: a vector, so sliding counts.
 
