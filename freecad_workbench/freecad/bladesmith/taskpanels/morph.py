@@ -42,10 +42,10 @@ class MorphPanel:
         self._connect()
         self._enable(True)
         self._show_result()
-        self._pause.start()
+        self._wait()
 
     def _connect(self):
-        self._fields.changed.connect(self._pause.start)
+        self._fields.changed.connect(self._wait)
         self._pause.timeout.connect(self._check)
         self._checker.done.connect(lambda found: self._say(words.check(*found)))
         self._checker.failed.connect(self._refuse)
@@ -68,8 +68,9 @@ class MorphPanel:
             self._close_after = True
             self.run()
             return False
-        self._close()
+        self._stop_all()
         self.obj.Document.commitTransaction()
+        _leave(self.obj.Document)
         return True
 
     def reject(self):
@@ -78,9 +79,9 @@ class MorphPanel:
             self._worker.cancel()
             return False
         document = self.obj.Document
-        self._close()
+        self._stop_all()
         document.abortTransaction()
-        document.recompute()
+        _leave(document)
         return True
 
     @property
@@ -106,6 +107,11 @@ class MorphPanel:
     def _job(self) -> Job:
         self._fields.write()
         return morph.job_of(self.obj)
+
+    def _wait(self):
+        self._checker.forget()
+        self._say(words.plain(translate("Checking …")))
+        self._pause.start()
 
     def _check(self):
         if self.busy:
@@ -170,12 +176,16 @@ class MorphPanel:
         FreeCADGui.Selection.addSelection(self.obj)
         FreeCADGui.runCommand(name)
 
-    def _close(self):
+    def _stop_all(self):
         self._checker.forget()
         self._worker.forget()
         self._pause.stop()
-        FreeCADGui.getDocument(self.obj.Document.Name).resetEdit()
-        FreeCADGui.Control.closeDialog()
+
+
+def _leave(document):
+    """Ends the editing; before it, the transaction must be over, or FreeCAD commits it."""
+    FreeCADGui.getDocument(document.Name).resetEdit()
+    FreeCADGui.Control.closeDialog()
 
 
 def _completed(job: Job, progress, deviation: float) -> morph.Computed:
