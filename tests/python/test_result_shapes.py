@@ -5,10 +5,12 @@ import unittest
 import common
 import numpy
 from common import FreeCAD, Part
+from freecad.bladesmith.colours.refinement import refined
 from freecad.bladesmith.colours.result import prepare
 from freecad.bladesmith.features import morph, shown
 from freecad.bladesmith.native import InputError
 from freecad.bladesmith.occ import step
+from freecad.bladesmith.occ.tessellation import tessellate
 
 NO_NODES = {
     "ids": numpy.empty(0, dtype=int),
@@ -26,6 +28,22 @@ def finished(steps):
             next(steps)
         except StopIteration as stop:
             return stop.value
+
+
+def areas(mesh):
+    """Area vectors (m, 3) of triangles."""
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    return numpy.cross(b - a, c - a) / 2
+
+
+def border(mesh) -> float:
+    """Length of all sides that only one triangle has: those of the faces, and of cracks."""
+    places, number = numpy.unique(mesh.points.round(9), axis=0, return_inverse=True)
+    number = number.reshape(-1) + len(places) * mesh.faces
+    ends = number[mesh.triangles[:, ((0, 1), (1, 2), (2, 0))].reshape(-1, 2)]
+    pairs, uses = numpy.unique(numpy.sort(ends, axis=1), axis=0, return_counts=True)
+    ends = places[pairs[uses == 1] % len(places)]
+    return numpy.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 
 def solids():
@@ -88,11 +106,21 @@ class Movement(unittest.TestCase):
                     away = edge.distToShape(Part.Vertex(*point))[0]
                     self.assertLess(away, 1e-6, f"{name}, Edge{k}")
 
-    def test_triangles_are_short_enough_to_carry_colours(self):
-        for name, result in self.shown.items():
-            corners = result.mesh.points[result.mesh.triangles]
+    def test_triangles_are_short_and_cover_the_same_without_cracks(self):
+        for name, solid in solids().items():
+            size = solid.BoundBox.DiagonalLength
+            coarse = tessellate(solid)
+            fine = refined(coarse, size / 50)
+            corners = fine.points[fine.triangles]
             sides = numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2)
-            self.assertLess(sides.max(), result.size / 49, name)
+            self.assertLess(sides.max(), 2 * size / 50, name)
+            # No side is longer than the part, so none has more than 64 pieces.
+            self.assertLess(len(fine.triangles), 2 * 64 * len(coarse.triangles), name)
+            before, after = areas(coarse), areas(fine)
+            numpy.testing.assert_allclose(after.sum(axis=0), before.sum(axis=0), atol=1e-9)
+            lengths = [numpy.linalg.norm(a, axis=1).sum() for a in (before, after)]
+            self.assertAlmostEqual(*lengths, delta=1e-9, msg=name)
+            self.assertAlmostEqual(border(fine), border(coarse), delta=1e-9, msg=name)
 
     def test_faces_without_nodes_have_no_deviation_and_no_worst_spot(self):
         result = self.shown["box with a hole"]

@@ -194,7 +194,7 @@ class ResultView(unittest.TestCase):
         table = child(QtGui.QTableView, "result_edges")
         rows = range(table.model().rowCount())
         self.assertEqual(len(rows), len(self.morph.Shape.Edges))
-        gaps = [float(table.model().index(row, 2).data()) for row in rows if row < 9]
+        gaps = [float(table.model().index(row, 1).data()) for row in rows if row < 9]
         self.assertEqual(gaps, sorted(gaps, reverse=True))
         tick("zoom_edges")
         table.selectRow(1)

@@ -6,7 +6,7 @@ from PySide import QtCore, QtGui
 from ..colours.scale import number
 
 _SORTED_BY = QtCore.Qt.UserRole
-_GAP_COLUMN = 2
+_GAP_COLUMN = 1
 
 
 def _columns() -> list:
@@ -14,12 +14,6 @@ def _columns() -> list:
     tr = Qt.translate
     return [
         (tr("Bladesmith", "Edge"), "", lambda e: e.index, None),
-        (
-            tr("Bladesmith", "Faces"),
-            tr("Bladesmith", "The faces that it joins"),
-            lambda e: e.faces[0] * 1_000_000 + e.faces[1],
-            lambda e: f"{e.faces[0]}, {e.faces[1]}",
-        ),
         (
             tr("Bladesmith", "Gap, µm"),
             tr("Bladesmith", "Largest distance among its curve and its traces on both faces"),
@@ -37,6 +31,12 @@ def _columns() -> list:
             tr("Bladesmith", "Largest angle between the normals of both faces"),
             lambda e: e.angle_deg.after,
             None,
+        ),
+        (
+            tr("Bladesmith", "Faces"),
+            tr("Bladesmith", "The faces that it joins"),
+            lambda e: e.faces[0] * 1_000_000 + e.faces[1],
+            lambda e: f"{e.faces[0]}, {e.faces[1]}",
         ),
         (
             tr("Bladesmith", "Gap before, µm"),

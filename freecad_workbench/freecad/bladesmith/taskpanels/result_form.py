@@ -23,10 +23,10 @@ def titles() -> dict:
     tr = Qt.translate
     return {
         "displacement": tr("Bladesmith", "Displacement"),
-        "displacement_x": tr("Bladesmith", "Displacement along X"),
-        "displacement_y": tr("Bladesmith", "Displacement along Y"),
-        "displacement_z": tr("Bladesmith", "Displacement along Z"),
-        "deviation": tr("Bladesmith", "Deviation from the field"),
+        "displacement_x": tr("Bladesmith", "Displacement X"),
+        "displacement_y": tr("Bladesmith", "Displacement Y"),
+        "displacement_z": tr("Bladesmith", "Displacement Z"),
+        "deviation": tr("Bladesmith", "Deviation"),
     }
 
 
