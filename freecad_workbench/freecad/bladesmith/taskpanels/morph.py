@@ -89,6 +89,11 @@ class MorphPanel:
         """Whether a morph is being computed."""
         return self._worker.running
 
+    @property
+    def checking(self) -> bool:
+        """Whether the input is being checked, or about to be."""
+        return self._pause.isActive() or self._checker.running
+
     def run(self):
         """Starts to morph what the form shows."""
         if self.busy:
