@@ -160,7 +160,7 @@ class MorphPanel:
             self._say(words.error(translate("Stopped; the object stays as it was.")))
             return
         self._refuse(error)
-        FreeCAD.Console.PrintError(f"Bladesmith: {error}\n")
+        FreeCAD.Console.PrintError(f"Bladesmith: {words.for_panel(str(error))}\n")
 
     def _enable(self, enabled: bool):
         for name in ("partGroup", "fieldGroup", "fitGroup"):
@@ -173,8 +173,16 @@ class MorphPanel:
         self.form.resultGroup.setVisible(bool(text))
         if text:
             self.form.result.setText(words.result(Report.of_text(text), float(self.obj.Tolerance)))
+            QtCore.QTimer.singleShot(0, self._reveal_result)
         known = FreeCADGui.listCommands()
         self.form.showResult.setVisible("Bladesmith_ShowResult" in known)
+
+    def _reveal_result(self):
+        area = self.form.parentWidget()
+        while area is not None and not isinstance(area, QtGui.QScrollArea):
+            area = area.parentWidget()
+        if area is not None:
+            area.ensureWidgetVisible(self.form.resultGroup)
 
     def _command(self, name: str):
         FreeCADGui.Selection.clearSelection()
