@@ -21,8 +21,6 @@ TRANSLATED = (
 )
 """Stages of a morph, as the core names them."""
 
-_STATES = {"good": _GOOD, "odd": _ODD, "bad": _BAD}
-
 
 def translate(text: str) -> str:
     """``text`` in the user's language."""
@@ -93,7 +91,7 @@ def result(report: Report, tolerance_mm: float) -> str:
     else:
         text = translate("Largest deviation {0} mm, on {1}: within the tolerance of {2} mm")
     text = text.format(words.length(report.deviation_mm.max), worst.name, f"{tolerance_mm:g}")
-    lines = [_line(text, _STATES[words.state(report, tolerance_mm)])]
+    lines = [_line(text, _BAD if report.misses(tolerance_mm) else _GOOD)]
     sound = solid["valid"] and solid["closed"]
     lines.append(
         _line(translate("The solid is valid and closed"), _GOOD)

@@ -12,6 +12,10 @@
    <translation>Datei wählen</translation>
   </message>
   <message>
+   <source>Choose a file with displacements, or a result of the FEM workbench.</source>
+   <translation>Eine Datei mit Verschiebungen oder ein Ergebnis des FEM-Arbeitsbereichs wählen.</translation>
+  </message>
+  <message>
    <source>Faces without nodes: {0}</source>
    <translation>Flächen ohne Knoten: {0}</translation>
   </message>
