@@ -37,9 +37,18 @@ def run_in_window(module: str, language: str = "English") -> str:
 
 
 class Window(unittest.TestCase):
-    def test_a_users_walk_with_the_blade(self):
-        failure = run_in_window("blade_walk")
+    def assert_passes(self, module, language="English"):
+        failure = run_in_window(module, language)
         self.assertFalse(failure, failure)
+
+    def test_a_users_walk_with_the_blade(self):
+        self.assert_passes("blade_walk")
+
+    def test_awkward_inputs_in_the_panel(self):
+        self.assert_passes("awkward_inputs")
+
+    def test_the_window_in_german(self):
+        self.assert_passes("german", "German")
 
 
 if __name__ == "__main__":

@@ -13,10 +13,11 @@ from typing import Optional
 import FreeCAD
 
 from ..model import FIELD_UNITS_MM, MorphOptions
-from ..native import InputError
+from ..native import BladesmithError, InputError
 from ..operations.faces import selected
 from ..operations.morph import FieldFile, Job, Progress, Result, complete
 from . import attributes, fem, preferences
+from .naming import in_property_names
 from .properties import Property, add_missing
 
 SCHEMA_VERSION = 1
@@ -115,10 +116,13 @@ class Morph:
 
     def execute(self, obj):
         """Called by FreeCAD to recompute. Raises what the inputs are refused for."""
-        job = job_of(obj)
         ready, self._ready = self._ready, None
-        fits = ready is not None and ready.state == job.state()
-        _store(obj, ready if fits else computed(job))
+        try:
+            job = job_of(obj)
+            fits = ready is not None and ready.state == job.state()
+            _store(obj, ready if fits else computed(job))
+        except BladesmithError as error:
+            raise type(error)(in_property_names(str(error))) from None
 
     def offer(self, ready: "Computed") -> None:
         """Takes what was computed elsewhere: the next recompute uses it if the input is its own."""
