@@ -1,9 +1,9 @@
 """The table of a report's edges: sortable, worst first."""
 
-from FreeCAD import Qt
 from PySide import QtCore, QtGui
 
 from ..colours.scale import number
+from .words import translate
 
 _SORTED_BY = QtCore.Qt.UserRole
 _GAP_COLUMN = 1
@@ -11,36 +11,35 @@ _GAP_COLUMN = 1
 
 def _columns() -> list:
     """Heading, explanation, value of an edge to sort by, and its text or None for the value's."""
-    tr = Qt.translate
     return [
-        (tr("Bladesmith", "Edge"), "", lambda e: e.index, None),
+        (translate("Edge"), "", lambda e: e.index, None),
         (
-            tr("Bladesmith", "Gap, µm"),
-            tr("Bladesmith", "Largest distance among its curve and its traces on both faces"),
+            translate("Gap, µm"),
+            translate("Largest distance among its curve and its traces on both faces"),
             lambda e: e.gap_mm.after * 1e3,
             None,
         ),
         (
-            tr("Bladesmith", "Opened, °"),
-            tr("Bladesmith", "How much the angle of a tangent joint grew"),
+            translate("Opened, °"),
+            translate("How much the angle of a tangent joint grew"),
             lambda e: e.angle_deg.after - e.angle_deg.before if e.tangent else -1.0,
             lambda e: number(max(e.angle_deg.after - e.angle_deg.before, 0)) if e.tangent else "–",
         ),
         (
-            tr("Bladesmith", "Angle, °"),
-            tr("Bladesmith", "Largest angle between the normals of both faces"),
+            translate("Angle, °"),
+            translate("Largest angle between the normals of both faces"),
             lambda e: e.angle_deg.after,
             None,
         ),
         (
-            tr("Bladesmith", "Faces"),
-            tr("Bladesmith", "The faces that it joins"),
+            translate("Faces"),
+            translate("The faces that it joins"),
             lambda e: e.faces[0] * 1_000_000 + e.faces[1],
             lambda e: f"{e.faces[0]}, {e.faces[1]}",
         ),
         (
-            tr("Bladesmith", "Gap before, µm"),
-            tr("Bladesmith", "The gap of the input"),
+            translate("Gap before, µm"),
+            translate("The gap of the input"),
             lambda e: e.gap_mm.before * 1e3,
             None,
         ),

@@ -3,7 +3,6 @@
 import FreeCAD
 import FreeCADGui
 import numpy
-from FreeCAD import Qt
 from PySide import QtCore, QtGui
 
 from ..colours import palette
@@ -17,15 +16,14 @@ from ..viewproviders.legend import LegendText, legend_image, mark_image
 from ..viewproviders.result_colours import Overlay, zoom
 from .report_page import ReportPage
 from .result_form import UNITS_MM, ResultForm, titles
-from .words import for_panel
+from .words import error as error_line
+from .words import plain, translate, verdict
 
 _SMALL_MM = 0.01
 """A scale that ends below is better read in micrometres."""
 
 _SPOT_PART, _EDGE_PART = 0.25, 0.15
 """How much of the part's diagonal is seen at least after a zoom."""
-
-_VERDICT_COLOURS = {"good": "#2e7d32", "odd": "#b26a00", "bad": "#c62828"}
 
 
 class ResultPanel:
@@ -95,19 +93,10 @@ class ResultPanel:
         form.report.clicked.connect(lambda: self._page.draw(self._obj))
 
     def _say_verdict(self, report: Report) -> None:
-        tolerance = float(self._obj.Tolerance)
-        colour = _VERDICT_COLOURS[words.state(report, tolerance)]
-        text = Qt.translate("Bladesmith", "Largest deviation {0} mm, tolerance {1} mm.")
-        said = text.format(number(report.deviation_mm.max), number(tolerance))
-        opened = len(words.opened(report))
-        if opened:
-            text = Qt.translate("Bladesmith", "Tangent joints that opened: {0}.")
-            said += " " + text.format(opened)
+        said = verdict(report, float(self._obj.Tolerance))
         if not shown.is_current(self._obj):
-            said += " " + Qt.translate(
-                "Bladesmith", "The inputs have changed since: recompute to see their result."
-            )
-        self.form.verdict.setText(f'<span style="color:{colour}">●</span> {said}')
+            said += plain(translate("The inputs have changed since: recompute to see their result"))
+        self.form.verdict.setText(said)
 
     def _prepared(self):
         """What :func:`prepare` gives, in its steps."""
@@ -131,7 +120,7 @@ class ResultPanel:
         except BladesmithError as error:
             result = None
             self._overlay.detach()
-            self.form.verdict.setText(for_panel(str(error)))
+            self.form.verdict.setText(error_line(str(error)))
         self._turn.stop()
         self.form.busy.hide()
         if result is not None:
@@ -163,8 +152,7 @@ class ResultPanel:
             self._scale = self._wished(wish)
         except ValueError:
             self.form.complain(
-                Qt.translate(
-                    "Bladesmith",
+                translate(
                     "A scale needs two numbers, the smaller one first, and both above zero where "
                     "it is logarithmic.",
                 )
@@ -199,7 +187,7 @@ class ResultPanel:
         places = scale.places(numpy.array(scale.ticks()))
         subtitle = unit
         if self.form.factor != 1:
-            movement = Qt.translate("Bladesmith", "movement × {0}")
+            movement = translate("movement × {0}")
             subtitle += " · " + movement.format(f"{self.form.factor:g}")
         title = titles()[self.form.quantity]
         return LegendText(title, subtitle, list(zip(places, labels(scale, UNITS_MM[unit]))))
@@ -213,7 +201,7 @@ class ResultPanel:
             self._overlay.mark(None)
             return
         unit = self.form.unit
-        place = Qt.translate("Bladesmith", "Face{0}, node {1}").format(spot.face, spot.node)
+        place = translate("Face{0}, node {1}").format(spot.face, spot.node)
         text = f"{number(spot.value / UNITS_MM[unit])} {unit}\n{place}"
         self._overlay.mark(self._at(spot), mark_image(text))
 

@@ -4,12 +4,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Optional
 
-from FreeCAD import Qt
 from PySide import QtCore, QtGui
 
 from ..colours.result import QUANTITIES
 from ..colours.scale import Scale
 from .edges_table import EdgesView
+from .words import translate
 
 UNITS_MM = {"mm": 1.0, "µm": 1e-3}
 _MOST_STEPS = 24
@@ -20,13 +20,12 @@ _NOTE = "color: #b3261e;"
 
 def titles() -> dict:
     """Names of the quantities for people."""
-    tr = Qt.translate
     return {
-        "displacement": tr("Bladesmith", "Displacement"),
-        "displacement_x": tr("Bladesmith", "Displacement X"),
-        "displacement_y": tr("Bladesmith", "Displacement Y"),
-        "displacement_z": tr("Bladesmith", "Displacement Z"),
-        "deviation": tr("Bladesmith", "Deviation"),
+        "displacement": translate("Displacement"),
+        "displacement_x": translate("Displacement X"),
+        "displacement_y": translate("Displacement Y"),
+        "displacement_z": translate("Displacement Z"),
+        "deviation": translate("Deviation"),
     }
 
 
@@ -56,7 +55,7 @@ class ResultForm(QtGui.QWidget):
 
     def __init__(self):
         super().__init__()
-        self.setWindowTitle(Qt.translate("Bladesmith", "Result of a morph"))
+        self.setWindowTitle(translate("Result of a morph"))
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
         self.verdict = QtGui.QLabel(wordWrap=True)
@@ -88,8 +87,7 @@ class ResultForm(QtGui.QWidget):
 
     def show_drawing(self, busy: bool) -> None:
         """Says on the button whether the report is being drawn."""
-        tr = Qt.translate
-        drawing, idle = tr("Bladesmith", "Drawing the report …"), tr("Bladesmith", "Open report")
+        drawing, idle = translate("Drawing the report …"), translate("Open report")
         self.report.setEnabled(not busy)
         self.report.setText(drawing if busy else idle)
 
@@ -133,8 +131,7 @@ class ResultForm(QtGui.QWidget):
         self._complaint.setVisible(bool(text))
 
     def _colours(self) -> QtGui.QGroupBox:
-        tr = Qt.translate
-        box, grid = _group(tr("Bladesmith", "Colours"))
+        box, grid = _group(translate("Colours"))
         self._quantity = QtGui.QComboBox()
         names = titles()
         for name in QUANTITIES:
@@ -144,22 +141,22 @@ class ResultForm(QtGui.QWidget):
         self._unit = QtGui.QComboBox()
         self._unit.addItems(list(UNITS_MM))
         self._unit.setMinimumWidth(_NARROW)
-        self._automatic = QtGui.QCheckBox(tr("Bladesmith", "Automatic scale"), checked=True)
+        self._automatic = QtGui.QCheckBox(translate("Automatic scale"), checked=True)
         self._low, self._high = QtGui.QLineEdit(enabled=False), QtGui.QLineEdit(enabled=False)
         self._steps = QtGui.QSpinBox(maximum=_MOST_STEPS)
-        self._steps.setSpecialValueText(tr("Bladesmith", "smooth"))
-        self._logarithmic = QtGui.QCheckBox(tr("Bladesmith", "Logarithmic"))
+        self._steps.setSpecialValueText(translate("smooth"))
+        self._logarithmic = QtGui.QCheckBox(translate("Logarithmic"))
         self._complaint = QtGui.QLabel(wordWrap=True, styleSheet=_NOTE, visible=False)
         for field in (self._low, self._high, self._steps):
             field.setMinimumWidth(_NARROW)
         grid.addWidget(self._quantity, 0, 0, 1, 3)
         grid.addWidget(self._unit, 0, 3)
         grid.addWidget(self._automatic, 1, 0, 1, 4)
-        grid.addWidget(QtGui.QLabel(tr("Bladesmith", "From")), 2, 0)
+        grid.addWidget(QtGui.QLabel(translate("From")), 2, 0)
         grid.addWidget(self._low, 2, 1)
-        grid.addWidget(QtGui.QLabel(tr("Bladesmith", "to")), 2, 2)
+        grid.addWidget(QtGui.QLabel(translate("to")), 2, 2)
         grid.addWidget(self._high, 2, 3)
-        grid.addWidget(QtGui.QLabel(tr("Bladesmith", "Steps")), 3, 0)
+        grid.addWidget(QtGui.QLabel(translate("Steps")), 3, 0)
         grid.addWidget(self._steps, 3, 1)
         grid.addWidget(self._logarithmic, 3, 2, 1, 2)
         grid.addWidget(self._complaint, 4, 0, 1, 4)
@@ -177,18 +174,17 @@ class ResultForm(QtGui.QWidget):
         return box
 
     def _shape(self) -> QtGui.QGroupBox:
-        tr = Qt.translate
-        box, grid = _group(tr("Bladesmith", "Shape"))
+        box, grid = _group(translate("Shape"))
         self._factor = QtGui.QDoubleSpinBox(maximum=_LARGEST_FACTOR, decimals=2, value=1.0)
         self._factor.setPrefix("× ")
         self._factor.setKeyboardTracking(False)
-        self.input_shape = QtGui.QPushButton(tr("Bladesmith", "Input"))
-        self.result_shape = QtGui.QPushButton(tr("Bladesmith", "Result"))
-        self.enlarged_shape = QtGui.QPushButton(tr("Bladesmith", "Enlarged"))
-        self.outline = QtGui.QCheckBox(tr("Bladesmith", "Edges of the input"))
-        self.worst = QtGui.QCheckBox(tr("Bladesmith", "Mark the worst spot"), checked=True)
-        self.zoom_worst = QtGui.QPushButton(tr("Bladesmith", "Zoom"), minimumWidth=_NARROW)
-        grid.addWidget(QtGui.QLabel(tr("Bladesmith", "Movement")), 0, 0)
+        self.input_shape = QtGui.QPushButton(translate("Input"))
+        self.result_shape = QtGui.QPushButton(translate("Result"))
+        self.enlarged_shape = QtGui.QPushButton(translate("Enlarged"))
+        self.outline = QtGui.QCheckBox(translate("Edges of the input"))
+        self.worst = QtGui.QCheckBox(translate("Mark the worst spot"), checked=True)
+        self.zoom_worst = QtGui.QPushButton(translate("Zoom"), minimumWidth=_NARROW)
+        grid.addWidget(QtGui.QLabel(translate("Movement")), 0, 0)
         grid.addWidget(self._factor, 0, 1, 1, 2)
         buttons = (self.input_shape, self.result_shape, self.enlarged_shape)
         for column, button in enumerate(buttons):
@@ -203,10 +199,9 @@ class ResultForm(QtGui.QWidget):
         return box
 
     def _edges(self) -> QtGui.QGroupBox:
-        tr = Qt.translate
-        box, grid = _group(tr("Bladesmith", "Gaps and tangency by edge"))
+        box, grid = _group(translate("Gaps and tangency by edge"))
         self.edges = EdgesView()
-        self.zoom_edges = QtGui.QCheckBox(tr("Bladesmith", "Zoom to the chosen edge"))
+        self.zoom_edges = QtGui.QCheckBox(translate("Zoom to the chosen edge"))
         grid.addWidget(self.edges, 0, 0)
         grid.addWidget(self.zoom_edges, 1, 0)
         return box

@@ -85,6 +85,11 @@ def check(info: dict, placement: dict) -> str:
 
 def result(report: Report, tolerance_mm: float) -> str:
     """The verdict of a report, and its warnings."""
+    return "".join([verdict(report, tolerance_mm), *map(_warning, report.warnings)])
+
+
+def verdict(report: Report, tolerance_mm: float) -> str:
+    """How well a result meets the field, its solid, its gaps and tangent joints."""
     worst, solid = report.worst_face(), report.solid
     if report.misses(tolerance_mm):
         text = translate("Largest deviation {0} mm, on {1}: beyond the tolerance of {2} mm")
@@ -114,7 +119,7 @@ def result(report: Report, tolerance_mm: float) -> str:
         text = translate("{0} of {1} tangent joints opened")
         colour = _ODD if opened else ""
         lines.append(_line(text.format(len(opened), len(tangent)), colour))
-    return "".join([*lines, *map(_warning, report.warnings)])
+    return "".join(lines)
 
 
 def _warning(text: str) -> str:

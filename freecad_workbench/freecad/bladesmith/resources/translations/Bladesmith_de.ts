@@ -4,6 +4,18 @@
  <context>
   <name>Bladesmith</name>
   <message>
+   <source>A scale needs two numbers, the smaller one first, and both above zero where it is logarithmic.</source>
+   <translation>Eine Skala braucht zwei Zahlen, die kleinere zuerst, und beide über null, wo sie logarithmisch ist.</translation>
+  </message>
+  <message>
+   <source>Angle, °</source>
+   <translation>Winkel, °</translation>
+  </message>
+  <message>
+   <source>Automatic scale</source>
+   <translation>Automatische Skala</translation>
+  </message>
+  <message>
    <source>Checking …</source>
    <translation>Wird geprüft …</translation>
   </message>
@@ -16,12 +28,88 @@
    <translation>Eine Datei mit Verschiebungen oder ein Ergebnis des FEM-Arbeitsbereichs wählen.</translation>
   </message>
   <message>
+   <source>Colours</source>
+   <translation>Farben</translation>
+  </message>
+  <message>
+   <source>Deviation</source>
+   <translation>Abweichung</translation>
+  </message>
+  <message>
+   <source>Displacement</source>
+   <translation>Verschiebung</translation>
+  </message>
+  <message>
+   <source>Displacement X</source>
+   <translation>Verschiebung X</translation>
+  </message>
+  <message>
+   <source>Displacement Y</source>
+   <translation>Verschiebung Y</translation>
+  </message>
+  <message>
+   <source>Displacement Z</source>
+   <translation>Verschiebung Z</translation>
+  </message>
+  <message>
+   <source>Drawing the report …</source>
+   <translation>Bericht wird gezeichnet …</translation>
+  </message>
+  <message>
+   <source>Edge</source>
+   <translation>Kante</translation>
+  </message>
+  <message>
+   <source>Edges of the input</source>
+   <translation>Kanten der Eingabe</translation>
+  </message>
+  <message>
+   <source>Enlarged</source>
+   <translation>Vergrößert</translation>
+  </message>
+  <message>
+   <source>Faces</source>
+   <translation>Flächen</translation>
+  </message>
+  <message>
    <source>Faces without nodes: {0}</source>
    <translation>Flächen ohne Knoten: {0}</translation>
   </message>
   <message>
+   <source>Face{0}, node {1}</source>
+   <translation>Face{0}, Knoten {1}</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Von</translation>
+  </message>
+  <message>
+   <source>Gap before, µm</source>
+   <translation>Spalt vorher, µm</translation>
+  </message>
+  <message>
+   <source>Gap, µm</source>
+   <translation>Spalt, µm</translation>
+  </message>
+  <message>
+   <source>Gaps and tangency by edge</source>
+   <translation>Spalte und Tangentialität je Kante</translation>
+  </message>
+  <message>
    <source>Hold-out error: mean {0} mm, largest {1} mm</source>
    <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm</translation>
+  </message>
+  <message>
+   <source>How much the angle of a tangent joint grew</source>
+   <translation>Um wie viel sich ein tangentialer Übergang geöffnet hat</translation>
+  </message>
+  <message>
+   <source>Input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>Largest angle between the normals of both faces</source>
+   <translation>Größter Winkel zwischen den Normalen beider Flächen</translation>
   </message>
   <message>
    <source>Largest deviation {0} mm, on {1}: beyond the tolerance of {2} mm</source>
@@ -36,6 +124,10 @@
    <translation>Größte Verschiebung {0} am Knoten {1} ({2})</translation>
   </message>
   <message>
+   <source>Largest distance among its curve and its traces on both faces</source>
+   <translation>Größter Abstand zwischen der Kurve und ihren Spuren auf beiden Flächen</translation>
+  </message>
+  <message>
    <source>Largest gap {0} mm, at Edge{1}; {2} mm before</source>
    <translation>Größter Spalt {0} mm, an Edge{1}; vorher {2} mm</translation>
   </message>
@@ -44,12 +136,60 @@
    <translation>Längeneinheit:</translation>
   </message>
   <message>
+   <source>Logarithmic</source>
+   <translation>Logarithmisch</translation>
+  </message>
+  <message>
+   <source>Mark the worst spot</source>
+   <translation>Schlechteste Stelle markieren</translation>
+  </message>
+  <message>
+   <source>Movement</source>
+   <translation>Bewegung</translation>
+  </message>
+  <message>
+   <source>Open report</source>
+   <translation>Bericht öffnen</translation>
+  </message>
+  <message>
+   <source>Opened, °</source>
+   <translation>Geöffnet, °</translation>
+  </message>
+  <message>
+   <source>Result</source>
+   <translation>Ergebnis</translation>
+  </message>
+  <message>
+   <source>Result of a morph</source>
+   <translation>Ergebnis eines Morphs</translation>
+  </message>
+  <message>
    <source>Scale</source>
    <translation>Maßstab</translation>
   </message>
   <message>
+   <source>Shape</source>
+   <translation>Form</translation>
+  </message>
+  <message>
+   <source>Steps</source>
+   <translation>Stufen</translation>
+  </message>
+  <message>
    <source>Stopped; the object stays as it was.</source>
    <translation>Abgebrochen; das Objekt bleibt, wie es war.</translation>
+  </message>
+  <message>
+   <source>The faces that it joins</source>
+   <translation>Die Flächen, die sie verbindet</translation>
+  </message>
+  <message>
+   <source>The gap of the input</source>
+   <translation>Der Spalt der Eingabe</translation>
+  </message>
+  <message>
+   <source>The inputs have changed since: recompute to see their result</source>
+   <translation>Die Eingaben haben sich seither geändert: neu berechnen, um ihr Ergebnis zu sehen</translation>
   </message>
   <message>
    <source>The solid is not valid, or open</source>
@@ -62,6 +202,14 @@
   <message>
    <source>Warning: {0}</source>
    <translation>Warnung: {0}</translation>
+  </message>
+  <message>
+   <source>Zoom</source>
+   <translation>Zoomen</translation>
+  </message>
+  <message>
+   <source>Zoom to the chosen edge</source>
+   <translation>Auf die gewählte Kante zoomen</translation>
   </message>
   <message>
    <source>a file</source>
@@ -96,6 +244,10 @@
    <translation>Ergebnis vermessen</translation>
   </message>
   <message>
+   <source>movement × {0}</source>
+   <translation>Bewegung × {0}</translation>
+  </message>
+  <message>
    <source>not stated: millimetres</source>
    <translation>ohne Angabe: Millimeter</translation>
   </message>
@@ -108,8 +260,16 @@
    <translation>Körper neu aufbauen</translation>
   </message>
   <message>
+   <source>smooth</source>
+   <translation>stufenlos</translation>
+  </message>
+  <message>
    <source>step {0} of {1}</source>
    <translation>Schritt {0} von {1}</translation>
+  </message>
+  <message>
+   <source>to</source>
+   <translation>bis</translation>
   </message>
   <message>
    <source>{0} nodes lie on the part, within {1} mm</source>
@@ -229,6 +389,17 @@
   <message>
    <source>Opens the page about a morph: verdict, figures and pictures</source>
    <translation>Öffnet die Seite über einen Morph: Urteil, Zahlen und Bilder</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_ShowResult</name>
+  <message>
+   <source>Show result</source>
+   <translation>Ergebnis zeigen</translation>
+  </message>
+  <message>
+   <source>Shows displacement and deviation as colours, and the joints edge by edge</source>
+   <translation>Zeigt Verschiebung und Abweichung als Farben und die Übergänge Kante für Kante</translation>
   </message>
  </context>
  <context>
