@@ -112,7 +112,6 @@ class ResultView(unittest.TestCase):
             if dock.objectName() in ("Python console", "Report view"):
                 dock.hide()
         cls.morph = morphed(*cls.source)
-        cls.before = picture()
 
     @classmethod
     def tearDownClass(cls):
@@ -210,6 +209,9 @@ class ResultView(unittest.TestCase):
         self.assertEqual(numbers, ["1", "2", "3"])
 
     def test_the_view_and_the_document_are_left_as_they_were(self):
+        self.close()
+        before = picture()
+        self.open()
         with tempfile.TemporaryDirectory() as folder:
             paths = [Path(folder, name) for name in ("shown.FCStd", "closed.FCStd")]
             press("result_enlarged_shape")
@@ -222,7 +224,7 @@ class ResultView(unittest.TestCase):
             self.close()
             self.assertEqual(shown_nodes(), 0)
             self.assertFalse(FreeCADGui.ActiveDocument.Modified)
-            self.assertEqual(picture(), self.before)
+            self.assertEqual(picture(), before)
             self.morph.Document.saveAs(str(paths[1]))
             views = [zipfile.ZipFile(path).read("GuiDocument.xml") for path in paths]
             self.assertEqual(*views)
@@ -243,10 +245,11 @@ class ResultView(unittest.TestCase):
             with Starvation() as starvation:
                 self.open()
                 settle()
-            runs.append(starvation.longest)
-        figures = {"starvation_s": runs, "goal_s": GOAL_S}
+            runs.append({"wall_s": starvation.wall, "own_s": starvation.own})
+        figures = {"starvation": runs, "goal_s": GOAL_S}
         (SHOTS / "result-responsiveness.json").write_text(json.dumps(figures) + "\n")
-        self.assertLess(min(runs), GOAL_S, f"of three runs, each at its longest: {runs}")
+        longest = min(run["own_s"] for run in runs)
+        self.assertLess(longest, GOAL_S, f"of three runs, each at its longest: {runs}")
 
 
 class SmallResult(unittest.TestCase):

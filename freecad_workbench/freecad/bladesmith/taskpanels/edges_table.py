@@ -111,7 +111,7 @@ class EdgesView(QtGui.QTableView):
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
         self.horizontalHeader().setStretchLastSection(True)
-        self.setMinimumHeight(190)
+        self.setMinimumHeight(130)
         self.selectionModel().selectionChanged.connect(self._tell)
 
     def show_edges(self, edges: list, opened: list) -> None:
