@@ -47,6 +47,9 @@ class Window(unittest.TestCase):
     def test_awkward_inputs_in_the_panel(self):
         self.assert_passes("awkward_inputs")
 
+    def test_step_through_the_menus_report_and_fem_result(self):
+        self.assert_passes("exchange_and_report")
+
     def test_the_window_in_german(self):
         self.assert_passes("german", "German")
 

@@ -81,8 +81,9 @@ def _table() -> tuple[Property, ...]:
 
 @dataclass
 class Computed:
-    """The result of a job, by the job's state, with the lists that the object will show."""
+    """The result of a job, with the lists that the object will show."""
 
+    job: Job
     state: tuple
     result: Result
     lists: dict[str, list]
@@ -97,7 +98,7 @@ def computed(job: Job, progress: Optional[Progress] = None) -> Computed:
     for name in ("feet", "displacements", "deviations"):
         rows = nodes[name].tolist()
         lists[f"Node{name.capitalize()}"] = [FreeCAD.Vector(*row) for row in rows]
-    return Computed(state, result, lists)
+    return Computed(job, state, result, lists)
 
 
 class Morph:
@@ -177,7 +178,7 @@ def job_of(obj) -> Job:
         face_names=tuple(faces),
         solid_name=name,
     )
-    return Job(shape.exportBrepToString(), name, _field(obj), options)
+    return Job(shape, name, _field(obj), options)
 
 
 def _source_shape(obj):
