@@ -4,14 +4,16 @@ import importlib
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import FreeCAD
 import FreeCADGui
-from freecad.bladesmith.commands import exchange, report
-from freecad.bladesmith.features import fem, morph
+from freecad.bladesmith.commands import exchange
+from freecad.bladesmith.features import fem, morph, shown
 from freecad.bladesmith.native import InputError
 from freecad.bladesmith.occ import step
 from freecad.bladesmith.occ.attributes import SolidAttributes
+from freecad.bladesmith.taskpanels import report_page
 from freecad.bladesmith.viewproviders.morph import MorphView
 from PySide import QtGui
 from window import ROOT, child, press_dialog, press_toolbar, wait_until
@@ -76,14 +78,17 @@ class Exchange(unittest.TestCase):
 
     def test_the_report_is_a_page_with_pictures(self):
         obj = self.morphed()
-        page = Path(report.write(obj, str(self.folder)))
-        text = page.read_text("utf-8")
+        FreeCADGui.Selection.addSelection(obj)
+        with mock.patch.object(report_page, "show_in_browser") as opened:
+            press_toolbar("Open report")
+            wait_until(lambda: opened.called)
+        text = Path(opened.call_args.args[0]).read_text("utf-8")
         self.assertIn("Morph of", text)
         self.assertIn("pressure side", text)
         self.assertGreater(text.count("data:image/png"), 3)
         obj.Source = None
         with self.assertRaisesRegex(InputError, "the source of this result is gone"):
-            report.write(obj, str(self.folder))
+            shown.solids(obj)
 
     def test_a_fem_result_is_chosen_in_the_panel(self):
         import ObjectsFem

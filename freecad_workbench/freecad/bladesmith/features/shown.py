@@ -29,8 +29,12 @@ def solids(obj) -> tuple:
     """The solid before and after. Raises :class:`InputError` where they no longer match."""
     after = obj.Shape
     found = obj.Source.Shape.Solids if obj.Source else []
-    before = found[nearest_solid(found, after)] if found else None
-    if before is None or not _alike(before, after):
+    if not found:
+        raise InputError(
+            f"{obj.Label}: the source of this result is gone; choose one and morph again"
+        )
+    before = found[nearest_solid(found, after)]
+    if not _alike(before, after):
         raise InputError(
             f"{obj.Label}: its source is not the solid it was computed from; recompute it"
         )
