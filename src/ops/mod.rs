@@ -1,5 +1,6 @@
-//! Operations on splines: interpolation, approximation, closest points.
+//! Operations on splines: interpolation, approximation, nearest points.
 
 pub mod approximate;
 pub mod closest;
 pub mod interpolate;
+pub mod invert;
