@@ -23,18 +23,19 @@ const ROOMS: [(&str, usize); 11] = [
 
 /// Packages of the add-on with their rank; those of one rank stand beside each other and may be
 /// used by one another.
-const PACKAGES: [(&str, usize); 11] = [
+const PACKAGES: [(&str, usize); 12] = [
     ("native", 0),
     ("model", 1),
     ("occ", 2),
-    ("features", 3),
-    ("viewproviders", 4),
-    ("report", 5),
-    ("taskpanels", 6),
-    ("commands", 6),
-    ("cli", 6),
-    ("__main__", 7),
-    ("init_gui", 7),
+    ("operations", 3),
+    ("features", 4),
+    ("viewproviders", 5),
+    ("report", 6),
+    ("taskpanels", 7),
+    ("commands", 7),
+    ("cli", 7),
+    ("__main__", 8),
+    ("init_gui", 8),
 ];
 
 const MOST_LINES: usize = 500;

@@ -385,6 +385,30 @@ void bladesmith_part_free(bladesmith_part *part);
 void bladesmith_morph_options_init(bladesmith_morph_options *options, size_t size);
 
 /**
+ * How a field lies on a part, as JSON, for a look before bladesmith_morph(): {"nodes",
+ * "nodes_on_faces", "unmatched_nodes", "foot_mm": {"mean", "max"}, "match_tolerance_mm",
+ * "faces_without_nodes": [...], "warnings": [...]}. It does the first stages of a morph, about a
+ * third of the work, and fails where that would refuse the input.
+ *
+ * options: NULL for the defaults.
+ * progress, user: called on this thread with user; progress may be NULL.
+ * Units: mm.
+ * Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it. Each call does
+ * the work: a buffer of 64 kB is nearly always enough for the first.
+ * Owner: the caller gives the buffer.
+ * Errors: those of bladesmith_morph(); BLADESMITH_STATUS_BUFFER_TOO_SMALL, with `*length` set and
+ * the buffer left alone.
+ */
+int32_t bladesmith_check(const bladesmith_part *part,
+                         const bladesmith_field *field,
+                         const bladesmith_morph_options *options,
+                         bladesmith_progress progress,
+                         void *user,
+                         char *json,
+                         size_t capacity,
+                         size_t *length);
+
+/**
  * Morphs one solid of a part by a field: x_out = x_in + factor * u(x_in) for every face, edge and
  * vertex, with the same topology and the same order of faces.
  *

@@ -201,6 +201,50 @@ inline std::int32_t bladesmith_hpp_follow(void *user, const char *stage, double 
 }
 }
 
+namespace detail {
+
+inline bladesmith_morph_options in_c(const Options &options, const std::vector<const char *> &names)
+{
+    bladesmith_morph_options c;
+    bladesmith_morph_options_init(&c, sizeof c);
+    c.factor = options.factor;
+    c.tolerance_mm = options.tolerance_mm;
+    c.match_tolerance_mm = options.match_tolerance_mm;
+    c.field_unit_mm = options.field_unit_mm;
+    c.displacement_scale = options.displacement_scale;
+    c.solid = options.solid;
+    c.extrapolate = options.extrapolate;
+    c.holdout = options.holdout;
+    c.threads = options.threads;
+    c.moving_faces = options.moving_faces.data();
+    c.moving_count = options.moving_faces.size();
+    c.fixed_faces = options.fixed_faces.data();
+    c.fixed_count = options.fixed_faces.size();
+    c.face_names = names.data();
+    c.face_names_count = names.size();
+    c.solid_name = options.solid_name.c_str();
+    return c;
+}
+
+/** Calls `work` with what C needs; what the progress function threw comes out. */
+template <class Work> auto followed(const Options &options, const Progress &progress, Work work)
+{
+    std::vector<const char *> names;
+    for (const std::string &name : options.face_names)
+        names.push_back(name.c_str());
+    const bladesmith_morph_options c = in_c(options, names);
+    Follower follower{progress, nullptr};
+    try {
+        return work(c, progress ? bladesmith_hpp_follow : nullptr, &follower);
+    } catch (const Error &) {
+        if (follower.thrown)
+            std::rethrow_exception(follower.thrown);
+        throw;
+    }
+}
+
+} // namespace detail
+
 /** A displacement field on the nodes of an FE mesh. */
 class Field : public detail::Handle<bladesmith_field, bladesmith_field_free> {
 public:
@@ -289,21 +333,36 @@ public:
     static Morphed morph(const Part &part, const Field &field, const Options &options = {},
                          const Progress &progress = {})
     {
-        std::vector<const char *> names;
-        for (const std::string &name : options.face_names)
-            names.push_back(name.c_str());
-        const bladesmith_morph_options c = in_c(options, names);
-        detail::Follower follower{progress, nullptr};
-        try {
+        return detail::followed(options, progress, [&](const auto &c, auto call, void *user) {
             return Morphed([&](bladesmith_morphed **out) {
-                return bladesmith_morph(part.get(), field.get(), &c, progress ? bladesmith_hpp_follow : nullptr,
-                                        &follower, out);
+                return bladesmith_morph(part.get(), field.get(), &c, call, user, out);
             });
-        } catch (const Error &) {
-            if (follower.thrown)
-                std::rethrow_exception(follower.thrown);
-            throw;
-        }
+        });
+    }
+
+    /**
+     * How the field lies on the part, as JSON, for a look before a morph: the first third of its
+     * work. Throws where a morph would refuse the input.
+     */
+    static std::string check(const Part &part, const Field &field, const Options &options = {},
+                             const Progress &progress = {})
+    {
+        return detail::followed(options, progress, [&](const auto &c, auto call, void *user) {
+            // Large enough as a rule: asking for the length first would do the work twice.
+            std::string json(1 << 16, '\0');
+            std::size_t length = 0;
+            const auto fetch = [&] {
+                return bladesmith_check(part.get(), field.get(), &c, call, user, json.data(), json.size(), &length);
+            };
+            std::int32_t status = fetch();
+            if (status == BLADESMITH_STATUS_BUFFER_TOO_SMALL) {
+                json.resize(length + 1);
+                status = fetch();
+            }
+            detail::check(status);
+            json.resize(length);
+            return json;
+        });
     }
 
     /** The morphed solid as a part of its own. */
@@ -329,29 +388,6 @@ public:
 
 private:
     using Handle::Handle;
-
-    static bladesmith_morph_options in_c(const Options &options, const std::vector<const char *> &names)
-    {
-        bladesmith_morph_options c;
-        bladesmith_morph_options_init(&c, sizeof c);
-        c.factor = options.factor;
-        c.tolerance_mm = options.tolerance_mm;
-        c.match_tolerance_mm = options.match_tolerance_mm;
-        c.field_unit_mm = options.field_unit_mm;
-        c.displacement_scale = options.displacement_scale;
-        c.solid = options.solid;
-        c.extrapolate = options.extrapolate;
-        c.holdout = options.holdout;
-        c.threads = options.threads;
-        c.moving_faces = options.moving_faces.data();
-        c.moving_count = options.moving_faces.size();
-        c.fixed_faces = options.fixed_faces.data();
-        c.fixed_count = options.fixed_faces.size();
-        c.face_names = names.data();
-        c.face_names_count = names.size();
-        c.solid_name = options.solid_name.c_str();
-        return c;
-    }
 };
 
 /** Release of the loaded library, such as "0.1.0". */

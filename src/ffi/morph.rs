@@ -173,7 +173,7 @@ pub unsafe extern "C" fn bladesmith_morphed_free(morphed: *mut Morphed) {
 }
 
 /// Runs `work` on so many threads; 0 takes the pool that uses all processors.
-fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+pub(super) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     if threads == 0 {
         return work();
     }

@@ -8,6 +8,7 @@
 
 pub mod affine;
 pub mod associate;
+pub mod check;
 pub mod coverage;
 pub mod data;
 pub mod fit;
@@ -33,6 +34,7 @@ pub mod surface_fit;
 pub mod system;
 pub mod trim;
 
+pub use check::check;
 pub use options::Options;
 pub use progress::Progress;
 pub use report::Report;

@@ -42,14 +42,10 @@ const HELD: f64 = 1e-6;
 /// # Errors
 /// See [`Error`]; nothing is returned that does not hold together.
 pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
-    options.check()?;
     let start = Instant::now();
     let mut seconds = Seconds::default();
     let mut warnings = field.warnings.clone();
-    tell(progress, "placing nodes on faces", 0.05)?;
-    let mut selected = select(brep, field, options, &mut warnings)?;
-    let fixed = fixed_faces(&selected.hot, options)?;
-    hold_nodes(&mut selected, &fixed);
+    let (selected, fixed) = place(brep, field, options, &mut warnings, progress)?;
     seconds.associate = start.elapsed().as_secs_f64();
 
     tell(progress, "preparing the fit", 0.25)?;
@@ -73,6 +69,25 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     report.seconds = seconds;
     tell(progress, "done", 1.0)?;
     Ok(Morphed { brep: out, report, nodes })
+}
+
+/// Brings the nodes to the faces; returns which faces the user holds, too.
+///
+/// # Errors
+/// See [`select`] and [`Error::Argument`].
+pub fn place(
+    brep: &Brep,
+    field: &Field,
+    options: &Options,
+    warnings: &mut Vec<String>,
+    progress: Progress<'_>,
+) -> Result<(Selected, Vec<bool>)> {
+    options.check()?;
+    tell(progress, "placing nodes on faces", 0.05)?;
+    let mut selected = select(brep, field, options, warnings)?;
+    let fixed = fixed_faces(&selected.hot, options)?;
+    hold_nodes(&mut selected, &fixed);
+    Ok((selected, fixed))
 }
 
 /// What is to be fitted, ready to go.
@@ -104,7 +119,11 @@ pub struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(
+    /// Gets ready to fit.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for areas without nodes that the field is not to be extended over.
+    pub fn new(
         selected: &'a Selected,
         fixed: Vec<bool>,
         options: &Options,

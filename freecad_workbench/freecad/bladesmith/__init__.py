@@ -1,7 +1,9 @@
 """Bladesmith: hot-to-cold morphing of CAD solids by a finite-element displacement field.
 
 Rooms, each using only those before it: ``native`` (the core, by ctypes), ``model`` (plain data),
-``occ`` (FreeCAD and Open CASCADE), ``report`` (the page with pictures), ``cli`` (the commands).
+``occ`` (FreeCAD and Open CASCADE), ``operations`` (what is done, for command line and window),
+``features``, ``viewproviders``, ``taskpanels``, ``commands`` (the workbench of FreeCAD), ``report``
+(the page with pictures), ``cli`` (the command line).
 Lengths are millimetres, angles degrees, faces and edges count from 1.
 """
 

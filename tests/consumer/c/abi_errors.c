@@ -187,6 +187,22 @@ static void check_morph(const bladesmith_part *part, const bladesmith_field *fie
     EXPECT_TRUE(none == NULL);
 }
 
+static void check_check(const bladesmith_part *part, const bladesmith_field *field)
+{
+    size_t length = 0, again = 0;
+    char tiny[8] = "#######";
+    EXPECT(bladesmith_check(NULL, field, NULL, NULL, NULL, NULL, 0, &length), ARGUMENT, "'part': is NULL");
+    EXPECT(bladesmith_check(part, NULL, NULL, NULL, NULL, NULL, 0, &length), ARGUMENT, "'field': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, NULL, 0, NULL), ARGUMENT, "'length': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, NULL, 8, &length), ARGUMENT, "'buffer': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, tiny, sizeof tiny, &length), SMALL, "enlarge");
+    EXPECT_TRUE(length > sizeof tiny && strcmp(tiny, "#######") == 0);
+    char *json = malloc(length + 1);
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, json, length + 1, &again), OK, "");
+    EXPECT_TRUE(again == length && strlen(json) == length && strstr(json, "\"nodes_on_faces\""));
+    free(json);
+}
+
 static void check_nodes(const bladesmith_morphed *morphed)
 {
     size_t count = 0, again = 0;
@@ -243,6 +259,7 @@ int main(int argc, char **argv)
     check_evaluate(part);
     check_text(field_info, field, "'field': is NULL");
     check_morph(part, field);
+    check_check(part, field);
     check_morphed(part, field);
     bladesmith_part_free(part);
     bladesmith_field_free(field);

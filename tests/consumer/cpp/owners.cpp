@@ -82,6 +82,11 @@ static void check_progress(const Part &part, const Field &field)
     } catch (const Mine &) {
         caught = true;
     }
+    try {
+        Morphed::check(part, field, {}, [](std::string_view, double) -> bool { throw Mine(); });
+        caught = false;
+    } catch (const Mine &) {
+    }
     expect(caught, "what the progress function throws comes out");
     expect_error(BLADESMITH_STATUS_CANCELLED, "cancelled", [&] {
         Morphed::morph(part, field, {}, [](std::string_view stage, double) { return stage.empty(); });
@@ -98,6 +103,7 @@ static void check_morph(const Part &part, const Field &field)
     options.factor = -1.0;
     options.face_names = {"foot", "", "tip", "", "", "", "hole"};
     options.solid_name = "bar";
+    expect(Morphed::check(part, field, options).find("\"nodes_on_faces\"") != std::string::npos, "a look before");
     double last = 0.0;
     const auto morphed = Morphed::morph(part, field, options, [&](std::string_view, double fraction) {
         expect(fraction >= last, "the fraction done rises");

@@ -8,6 +8,7 @@ import ctypes
 import json
 import os
 from collections.abc import Sequence
+from contextlib import contextmanager
 from ctypes import (
     POINTER,
     byref,
@@ -67,6 +68,14 @@ STATUS_CALLS = {
     "bladesmith_part_info": _TEXT,
     "bladesmith_part_write": _TEXT,
     "bladesmith_part_evaluate": (c_void_p, c_uint32, c_void_p, c_size_t, c_uint32, c_void_p),
+    "bladesmith_check": (
+        c_void_p,
+        c_void_p,
+        POINTER(MorphOptions),
+        ProgressFunction,
+        c_void_p,
+        *_TEXT[1:],
+    ),
     "bladesmith_morph": (
         c_void_p,
         c_void_p,
@@ -101,13 +110,16 @@ OTHER_CALLS = {
 }
 """Result and argument types of the other calls."""
 
+_CHECK_BYTES = 1 << 20
+"""Room for the answer of a check: its lists of numbers are short."""
+
 _library: Optional[ctypes.CDLL] = None
 
 
 def _core() -> ctypes.CDLL:
     global _library
     if _library is None:
-        library = load()
+        library = load({*STATUS_CALLS, *OTHER_CALLS})
         for name, arguments in STATUS_CALLS.items():
             function = getattr(library, name)
             function.argtypes, function.restype, function.errcheck = arguments, c_int32, _errcheck
@@ -252,31 +264,10 @@ class Morphed(_Handle):
         exception it raises comes out of this call.
         """
         morphed = cls()
-        options, kept = _options(morphed._core, settings)
-        raised = []
-
-        def call(_user, stage, fraction):
-            try:
-                return 0 if progress is None or progress(stage.decode(), fraction) else 1
-            except BaseException as exception:  # must not cross the C frames
-                raised.append(exception)
-                return 1
-
-        try:
+        with _call_of(morphed._core, settings, progress) as (options, call):
             morphed._core.bladesmith_morph(
-                part._handle,
-                field._handle,
-                byref(options),
-                ProgressFunction(call),
-                None,
-                byref(morphed._handle),
+                part._handle, field._handle, options, call, None, byref(morphed._handle)
             )
-        except Cancelled:
-            if raised:
-                raise raised[0] from None
-            raise
-        finally:
-            del kept
         return morphed
 
     def part(self) -> Part:
@@ -306,6 +297,43 @@ class Morphed(_Handle):
         }
         call(self._handle, n, *(a.ctypes.data for a in arrays.values()), byref(count))
         return arrays
+
+
+def check(part: Part, field: Field, settings: dict, progress: Optional[Callable] = None) -> dict:
+    """How ``field`` lies on ``part``: the first stages of :meth:`Morphed.morph`, same arguments.
+
+    Raises what the morph would refuse the input for.
+    """
+    core = _core()
+    length = c_size_t()
+    buffer = ctypes.create_string_buffer(_CHECK_BYTES)
+    with _call_of(core, settings, progress) as (options, call):
+        arguments = (part._handle, field._handle, options, call, None)
+        core.bladesmith_check(*arguments, buffer, len(buffer), byref(length))
+    return json.loads(buffer.raw[: length.value].decode())
+
+
+@contextmanager
+def _call_of(core: ctypes.CDLL, settings: dict, progress: Optional[Callable[[str, float], bool]]):
+    """Options and callback for one call of the core; what ``progress`` raises comes out of it."""
+    options, kept = _options(core, settings)
+    raised = []
+
+    def call(_user, stage, fraction):
+        try:
+            return 0 if progress is None or progress(stage.decode(), fraction) else 1
+        except BaseException as exception:  # must not cross the C frames
+            raised.append(exception)
+            return 1
+
+    try:
+        yield byref(options), ProgressFunction(call)
+    except Cancelled:
+        if raised:
+            raise raised[0] from None
+        raise
+    finally:
+        del kept
 
 
 def _options(core: ctypes.CDLL, settings: dict):

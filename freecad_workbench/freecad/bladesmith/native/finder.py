@@ -7,6 +7,7 @@ folder of a checkout; the ``lib`` folder of an installation; the system's librar
 import ctypes
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from sysconfig import get_platform
 
@@ -37,8 +38,8 @@ def _candidates() -> list[str]:
     return [str(file) for file in files if file.is_file()] + _file_names()
 
 
-def load() -> ctypes.CDLL:
-    """The loaded library, its ABI version checked.
+def load(calls: Iterable[str] = ()) -> ctypes.CDLL:
+    """The loaded library, its ABI version checked, with all of ``calls``.
 
     Raises :class:`SetupError` where there is none, or one of another version.
     """
@@ -50,14 +51,14 @@ def load() -> ctypes.CDLL:
         except OSError as reason:
             reasons.append(str(reason))
             continue
-        return _checked(library, name)
+        return _checked(library, name, calls)
     raise SetupError(
         f"the library of Bladesmith was not found ({'; '.join(reasons)}): {_remedy()}, or name the "
         "file in the environment variable BLADESMITH_LIBRARY"
     )
 
 
-def _checked(library: ctypes.CDLL, name: str) -> ctypes.CDLL:
+def _checked(library: ctypes.CDLL, name: str, calls: Iterable[str]) -> ctypes.CDLL:
     try:
         library.bladesmith_abi_version.restype = ctypes.c_uint32
         found = library.bladesmith_abi_version()
@@ -66,6 +67,12 @@ def _checked(library: ctypes.CDLL, name: str) -> ctypes.CDLL:
     if found != ABI_VERSION:
         raise SetupError(
             f"{name} has C interface {found}, this package needs {ABI_VERSION}: {_remedy()}, "
+            "so that both are of one release"
+        )
+    missing = [call for call in calls if not hasattr(library, call)]
+    if missing:
+        raise SetupError(
+            f"{name} is older than this package, it has no {missing[0]}: {_remedy()}, "
             "so that both are of one release"
         )
     return library

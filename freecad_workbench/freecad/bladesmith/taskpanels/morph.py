@@ -1,0 +1,196 @@
+"""The panel of a morph: input with a live check, the run with progress, the verdict.
+
+All that the panel does to the document is one step of undo. The work is done beside the window;
+when it is finished, the object's recompute takes the result.
+"""
+
+from pathlib import Path
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from ..features import morph
+from ..model import Report
+from ..native import BladesmithError, Cancelled
+from ..occ.drawing import with_triangles
+from ..operations.morph import Job, check, complete
+from . import words
+from .form import Form
+from .words import translate
+from .worker import Worker
+
+_UI = Path(__file__).parents[1] / "resources" / "panels" / "morph.ui"
+_PAUSE_MS = 250
+"""The check waits this long for further typing."""
+
+_BUTTONS = QtGui.QDialogButtonBox
+
+
+class MorphPanel:
+    """What FreeCAD's task view asks of a panel, for one morph object."""
+
+    def __init__(self, obj):
+        self.obj = obj
+        self.form = FreeCADGui.PySideUic.loadUi(str(_UI))
+        self.error = None
+        """The :class:`BladesmithError` that is shown, or None."""
+        self._fields = Form(self.form, obj)
+        self._worker, self._checker = Worker(), Worker()
+        self._state = None
+        self._close_after = False
+        self._pause = QtCore.QTimer(self.form)
+        self._pause.setSingleShot(True)
+        self._pause.setInterval(_PAUSE_MS)
+        self._connect()
+        self.form.running.hide()
+        self._show_result()
+        self._pause.start()
+
+    def _connect(self):
+        self._fields.changed.connect(self._pause.start)
+        self._pause.timeout.connect(self._check)
+        self._checker.done.connect(lambda found: self._say(words.check(*found)))
+        self._checker.failed.connect(self._refuse)
+        self._worker.progressed.connect(self._progress)
+        self._worker.done.connect(self._finish)
+        self._worker.failed.connect(self._fail)
+        self.form.stop.clicked.connect(self._worker.cancel)
+        self.form.showResult.clicked.connect(lambda: self._command("Bladesmith_ShowResult"))
+        self.form.openReport.clicked.connect(lambda: self._command("Bladesmith_OpenReport"))
+
+    def getStandardButtons(self):
+        """OK morphs if need be and closes, Apply morphs, Cancel takes everything back."""
+        return int(_BUTTONS.Ok | _BUTTONS.Apply | _BUTTONS.Cancel)
+
+    def clicked(self, button):
+        """Called with the number of the button."""
+        if button == int(_BUTTONS.Apply):
+            self.run()
+
+    def accept(self):
+        """Closes where the result is that of the input; morphs first where it is not."""
+        self._fields.write()
+        if "Touched" in self.obj.State or not self.obj.isValid() or self.obj.Shape.isNull():
+            self._close_after = True
+            self.run()
+            return False
+        self._close()
+        self.obj.Document.commitTransaction()
+        return True
+
+    def reject(self):
+        """Stops a run; where there is none, takes back what was done since the panel opened."""
+        if self._worker.running:
+            self._worker.cancel()
+            return False
+        document = self.obj.Document
+        self._close()
+        document.abortTransaction()
+        document.recompute()
+        return True
+
+    @property
+    def busy(self) -> bool:
+        """Whether a morph is being computed."""
+        return self._worker.running
+
+    def run(self):
+        """Starts to morph what the form shows."""
+        if self.busy:
+            return
+        self._checker.forget()
+        self._pause.stop()
+        try:
+            job = self._job()
+        except BladesmithError as error:
+            self._fail(error)
+            return
+        self._state = job.state()
+        deviation = self.obj.ViewObject.Deviation
+        self.form.running.show()
+        self._enable(False)
+        self._worker.start(lambda progress: _completed(job, progress, deviation))
+
+    def _job(self) -> Job:
+        self._fields.write()
+        return morph.job_of(self.obj)
+
+    def _check(self):
+        if self.busy:
+            return
+        try:
+            job = self._job()
+        except BladesmithError as error:
+            self._checker.forget()
+            self._refuse(error)
+            return
+        self._checker.start(lambda progress: check(job, progress))
+
+    def _say(self, text: str):
+        self.error = None
+        self.form.check.setText(text)
+
+    def _refuse(self, error: BladesmithError):
+        self.error = error
+        self.form.check.setText(words.error(str(error)))
+
+    def _progress(self, stage: str, fraction: float):
+        self.form.progress.setValue(round(1000 * fraction))
+        self.form.progress.setFormat(f"{translate(stage)} – %p %" if stage else "")
+
+    def _finish(self, result):
+        self._stopped()
+        self.error = None
+        self.obj.Proxy.offer(self._state, result)
+        self.obj.Document.recompute()
+        if not self.obj.isValid():
+            self._refuse(BladesmithError(self.obj.getStatusString()))
+            return
+        self._show_result()
+        if self._close_after:
+            self.accept()
+
+    def _fail(self, error: BladesmithError):
+        self._stopped()
+        self._close_after = False
+        if isinstance(error, Cancelled):
+            self._say(words.error(translate("Stopped; the object stays as it was.")))
+            return
+        self._refuse(error)
+        FreeCAD.Console.PrintError(f"Bladesmith: {error}\n")
+
+    def _stopped(self):
+        self.form.running.hide()
+        self._enable(True)
+
+    def _enable(self, enabled: bool):
+        for name in ("partGroup", "fieldGroup", "fitGroup"):
+            getattr(self.form, name).setEnabled(enabled)
+
+    def _show_result(self):
+        text = self.obj.ReportJson
+        self.form.resultGroup.setVisible(bool(text))
+        if text:
+            self.form.result.setText(words.result(Report.of_text(text), float(self.obj.Tolerance)))
+        known = FreeCADGui.listCommands()
+        self.form.showResult.setVisible("Bladesmith_ShowResult" in known)
+
+    def _command(self, name: str):
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(self.obj)
+        FreeCADGui.runCommand(name)
+
+    def _close(self):
+        self._checker.forget()
+        self._worker.forget()
+        self._pause.stop()
+        FreeCADGui.getDocument(self.obj.Document.Name).resetEdit()
+        FreeCADGui.Control.closeDialog()
+
+
+def _completed(job: Job, progress, deviation: float):
+    """The result of a job, with triangles, so that the window need not make them."""
+    result = complete(job, progress)
+    result.shape = with_triangles(result.brep, deviation, lambda: progress("drawing", 1.0))
+    return result
