@@ -56,7 +56,9 @@ def _interpreter() -> str:
     """A Python that finds FreeCAD: inside FreeCAD ``sys.executable`` may be FreeCAD itself."""
     if Path(sys.executable).name.lower().startswith("python"):
         return sys.executable
-    beside = shutil.which("python3", path=str(Path(sys.executable).parent)) if sys.executable else None
+    beside = (
+        shutil.which("python3", path=str(Path(sys.executable).parent)) if sys.executable else None
+    )
     return beside or shutil.which("python3") or "python3"
 
 
