@@ -7,13 +7,15 @@ invalid, says why, and keeps what it showed before.
 """
 
 import math
+from dataclasses import dataclass
+from typing import Optional
 
 import FreeCAD
 
 from ..model import FIELD_UNITS_MM, MorphOptions
 from ..native import InputError
 from ..operations.faces import selected
-from ..operations.morph import FieldFile, Job, Result, complete
+from ..operations.morph import FieldFile, Job, Progress, Result, complete
 from . import attributes, fem, preferences
 from .properties import Property, add_missing
 
@@ -76,6 +78,27 @@ def _table() -> tuple[Property, ...]:
     )
 
 
+@dataclass
+class Computed:
+    """The result of a job, by the job's state, with the lists that the object will show."""
+
+    state: tuple
+    result: Result
+    lists: dict[str, list]
+
+
+def computed(job: Job, progress: Optional[Progress] = None) -> Computed:
+    """Runs a job; any thread may call it. Raises :class:`BladesmithError`."""
+    state = job.state()
+    result = complete(job, progress)
+    nodes = result.nodes()
+    lists = {"NodeIds": nodes["ids"].tolist(), "NodeFaces": nodes["faces"].tolist()}
+    for name in ("feet", "displacements", "deviations"):
+        rows = nodes[name].tolist()
+        lists[f"Node{name.capitalize()}"] = [FreeCAD.Vector(*row) for row in rows]
+    return Computed(state, result, lists)
+
+
 class Morph:
     """Proxy of the object; its data are the object's properties."""
 
@@ -94,13 +117,12 @@ class Morph:
         """Called by FreeCAD to recompute. Raises what the inputs are refused for."""
         job = job_of(obj)
         ready, self._ready = self._ready, None
-        fits = ready is not None and ready[0] == job.state()
-        _store(obj, ready[1] if fits else complete(job))
+        fits = ready is not None and ready.state == job.state()
+        _store(obj, ready if fits else computed(job))
 
-    def offer(self, state: tuple, result: Result) -> None:
-        """Takes the result of a job, by its state, that was run elsewhere: the next recompute uses
-        it where the inputs are still the same."""
-        self._ready = (state, result)
+    def offer(self, ready: "Computed") -> None:
+        """Takes what was computed elsewhere: the next recompute uses it if the input is its own."""
+        self._ready = ready
 
     def dumps(self):
         """Nothing: the properties hold all."""
@@ -214,14 +236,12 @@ def _not_negative(obj, name: str) -> float:
     return value
 
 
-def _store(obj, result: Result) -> None:
+def _store(obj, ready: Computed) -> None:
+    result = ready.result
     product, said = attributes.load(obj.Source, len(result.shape.Faces))
     result.report.name_faces(said.face_names)
     obj.Shape = result.shape
     attributes.store(obj, product, said)
     obj.ReportJson = result.report.to_json()
-    nodes = result.nodes()
-    obj.NodeIds, obj.NodeFaces = nodes["ids"].tolist(), nodes["faces"].tolist()
-    for name in ("feet", "displacements", "deviations"):
-        vectors = [FreeCAD.Vector(*row) for row in nodes[name].tolist()]
-        setattr(obj, f"Node{name.capitalize()}", vectors)
+    for name, values in ready.lists.items():
+        setattr(obj, name, values)

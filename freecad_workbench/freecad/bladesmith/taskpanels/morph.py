@@ -14,7 +14,7 @@ from ..features import morph
 from ..model import Report
 from ..native import BladesmithError, Cancelled
 from ..occ.drawing import with_triangles
-from ..operations.morph import Job, check, complete
+from ..operations.morph import Job, check
 from . import words
 from .form import Form
 from .words import translate
@@ -23,8 +23,6 @@ from .worker import Worker
 _UI = Path(__file__).parents[1] / "resources" / "panels" / "morph.ui"
 _PAUSE_MS = 250
 """The check waits this long for further typing."""
-
-_BUTTONS = QtGui.QDialogButtonBox
 
 
 class MorphPanel:
@@ -37,36 +35,31 @@ class MorphPanel:
         """The :class:`BladesmithError` that is shown, or None."""
         self._fields = Form(self.form, obj)
         self._worker, self._checker = Worker(), Worker()
-        self._state = None
         self._close_after = False
         self._pause = QtCore.QTimer(self.form)
         self._pause.setSingleShot(True)
         self._pause.setInterval(_PAUSE_MS)
         self._connect()
-        self.form.running.hide()
+        self._enable(True)
         self._show_result()
-        self._pause.start()
+        self._wait()
 
     def _connect(self):
-        self._fields.changed.connect(self._pause.start)
+        self._fields.changed.connect(self._wait)
         self._pause.timeout.connect(self._check)
         self._checker.done.connect(lambda found: self._say(words.check(*found)))
         self._checker.failed.connect(self._refuse)
         self._worker.progressed.connect(self._progress)
         self._worker.done.connect(self._finish)
         self._worker.failed.connect(self._fail)
+        self.form.morph.clicked.connect(self.run)
         self.form.stop.clicked.connect(self._worker.cancel)
         self.form.showResult.clicked.connect(lambda: self._command("Bladesmith_ShowResult"))
         self.form.openReport.clicked.connect(lambda: self._command("Bladesmith_OpenReport"))
 
     def getStandardButtons(self):
-        """OK morphs if need be and closes, Apply morphs, Cancel takes everything back."""
-        return int(_BUTTONS.Ok | _BUTTONS.Apply | _BUTTONS.Cancel)
-
-    def clicked(self, button):
-        """Called with the number of the button."""
-        if button == int(_BUTTONS.Apply):
-            self.run()
+        """OK morphs if need be and closes, Cancel takes everything back."""
+        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Cancel)
 
     def accept(self):
         """Closes where the result is that of the input; morphs first where it is not."""
@@ -75,8 +68,9 @@ class MorphPanel:
             self._close_after = True
             self.run()
             return False
-        self._close()
+        self._stop_all()
         self.obj.Document.commitTransaction()
+        _leave(self.obj.Document)
         return True
 
     def reject(self):
@@ -85,15 +79,20 @@ class MorphPanel:
             self._worker.cancel()
             return False
         document = self.obj.Document
-        self._close()
+        self._stop_all()
         document.abortTransaction()
-        document.recompute()
+        _leave(document)
         return True
 
     @property
     def busy(self) -> bool:
         """Whether a morph is being computed."""
         return self._worker.running
+
+    @property
+    def checking(self) -> bool:
+        """Whether the input is being checked, or about to be."""
+        return self._pause.isActive() or self._checker.running
 
     def run(self):
         """Starts to morph what the form shows."""
@@ -106,15 +105,18 @@ class MorphPanel:
         except BladesmithError as error:
             self._fail(error)
             return
-        self._state = job.state()
         deviation = self.obj.ViewObject.Deviation
-        self.form.running.show()
         self._enable(False)
         self._worker.start(lambda progress: _completed(job, progress, deviation))
 
     def _job(self) -> Job:
         self._fields.write()
         return morph.job_of(self.obj)
+
+    def _wait(self):
+        self._checker.forget()
+        self._say(words.plain(translate("Checking …")))
+        self._pause.start()
 
     def _check(self):
         if self.busy:
@@ -139,10 +141,10 @@ class MorphPanel:
         self.form.progress.setValue(round(1000 * fraction))
         self.form.progress.setFormat(f"{translate(stage)} – %p %" if stage else "")
 
-    def _finish(self, result):
-        self._stopped()
+    def _finish(self, ready: morph.Computed):
+        self._enable(True)
         self.error = None
-        self.obj.Proxy.offer(self._state, result)
+        self.obj.Proxy.offer(ready)
         self.obj.Document.recompute()
         if not self.obj.isValid():
             self._refuse(BladesmithError(self.obj.getStatusString()))
@@ -152,7 +154,7 @@ class MorphPanel:
             self.accept()
 
     def _fail(self, error: BladesmithError):
-        self._stopped()
+        self._enable(True)
         self._close_after = False
         if isinstance(error, Cancelled):
             self._say(words.error(translate("Stopped; the object stays as it was.")))
@@ -160,13 +162,11 @@ class MorphPanel:
         self._refuse(error)
         FreeCAD.Console.PrintError(f"Bladesmith: {error}\n")
 
-    def _stopped(self):
-        self.form.running.hide()
-        self._enable(True)
-
     def _enable(self, enabled: bool):
         for name in ("partGroup", "fieldGroup", "fitGroup"):
             getattr(self.form, name).setEnabled(enabled)
+        self.form.morph.setVisible(enabled)
+        self.form.running.setVisible(not enabled)
 
     def _show_result(self):
         text = self.obj.ReportJson
@@ -181,16 +181,21 @@ class MorphPanel:
         FreeCADGui.Selection.addSelection(self.obj)
         FreeCADGui.runCommand(name)
 
-    def _close(self):
+    def _stop_all(self):
         self._checker.forget()
         self._worker.forget()
         self._pause.stop()
-        FreeCADGui.getDocument(self.obj.Document.Name).resetEdit()
-        FreeCADGui.Control.closeDialog()
 
 
-def _completed(job: Job, progress, deviation: float):
+def _leave(document):
+    """Ends the editing; before it, the transaction must be over, or FreeCAD commits it."""
+    FreeCADGui.getDocument(document.Name).resetEdit()
+    FreeCADGui.Control.closeDialog()
+
+
+def _completed(job: Job, progress, deviation: float) -> morph.Computed:
     """The result of a job, with triangles, so that the window need not make them."""
-    result = complete(job, progress)
+    ready = morph.computed(job, progress)
+    result = ready.result
     result.shape = with_triangles(result.brep, deviation, lambda: progress("drawing", 1.0))
-    return result
+    return ready

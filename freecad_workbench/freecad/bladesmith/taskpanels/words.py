@@ -24,8 +24,8 @@ def for_panel(text: str) -> str:
         r"--displacement-scale (\d+)": translate("Scale: {0}"),
         r"--displacement-scale": translate("the field Scale"),
         r"--solid N": translate("the field Solid"),
-        r"--match-tolerance": translate("a larger value in Nodes may lie off"),
-        r"--extrapolate": translate("a tick to Move areas far from any node too"),
+        r"--match-tolerance": translate("a larger value at Match within"),
+        r"--extrapolate": translate("a tick at Extrapolate"),
     }
     for option, field in fields.items():
         text = re.sub(option, lambda found, f=field: f.format(*found.groups()), text)
@@ -35,6 +35,11 @@ def for_panel(text: str) -> str:
 def error(text: str) -> str:
     """An error: the reason and what to do, as the core says it."""
     return _line(for_panel(text), _BAD)
+
+
+def plain(text: str) -> str:
+    """A line without a judgement."""
+    return _line(text)
 
 
 def check(info: dict, placement: dict) -> str:

@@ -12,6 +12,8 @@ _ICON = str(Path(__file__).parents[1] / "resources" / "icons" / "Bladesmith_Morp
 OVER, BESIDE, ALONE = LAYOUTS = ("Over its source", "Beside its source", "Alone")
 _SEE_THROUGH = 70
 """Transparency of a source that its result lies over, percent."""
+_COLD = (0.55, 0.71, 0.86)
+"""Colour of a result whose source has none of its own."""
 _APART = 1.2
 """Shift of a result beside its source, in widths of the part."""
 
@@ -22,11 +24,13 @@ class MorphView:
     def __init__(self, view):
         view.Proxy = self
         _add_properties(view)
+        view.ShapeColor = _COLD
         view.Layout = LAYOUTS[min(max(preferences.layout(), 0), len(LAYOUTS) - 1)]
 
     def attach(self, view):
         """Called when the object appears, also after a document was opened."""
         self.Object = view.Object
+        self.panel = None
         self._place = coin.SoTranslation()
         view.RootNode.insertChild(self._place, 0)
         _add_properties(view)
@@ -46,11 +50,13 @@ class MorphView:
         document = view.Object.Document
         if not document.HasPendingTransaction:
             document.openTransaction("Edit morph")
-        FreeCADGui.Control.showDialog(MorphPanel(view.Object))
+        self.panel = MorphPanel(view.Object)
+        FreeCADGui.Control.showDialog(self.panel)
         return True
 
     def unsetEdit(self, _view, _mode=0):
         """Closes the panel."""
+        self.panel = None
         FreeCADGui.Control.closeDialog()
         return True
 
@@ -127,7 +133,7 @@ def _colour(obj):
     said = attributes.load(obj, count)[1]
     if said.colour or any(said.face_colours):
         obj.ViewObject.DiffuseColor = diffuse(said, obj.ViewObject.ShapeColor)
-    elif obj.Source and len(obj.Source.ViewObject.DiffuseColor) in (1, count):
+    elif obj.Source and len(obj.Source.ViewObject.DiffuseColor) == count > 1:
         obj.ViewObject.DiffuseColor = obj.Source.ViewObject.DiffuseColor
 
 

@@ -1,0 +1,91 @@
+"""FreeCAD's window in a test: waiting, pressing, looking. Runs inside FreeCAD."""
+
+import os
+import time
+from pathlib import Path
+
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+ROOT = Path(__file__).resolve().parents[3]
+SHOTS = Path(os.environ.get("BLADESMITH_SCREENSHOTS", ROOT / "build" / "screenshots"))
+EXAMPLE = ROOT / "examples" / "compressor_blade"
+
+_SETTLE_S = 0.3
+
+
+def wait_until(condition, seconds: float = 120.0) -> None:
+    """Lets the window's own event loop run until ``condition`` holds; fails after ``seconds``."""
+    loop, timer, end = QtCore.QEventLoop(), QtCore.QTimer(), time.monotonic() + seconds
+    timer.timeout.connect(lambda: loop.quit() if condition() or time.monotonic() > end else None)
+    timer.start(10)
+    loop.exec_()
+    timer.stop()
+    if not condition():
+        raise AssertionError(f"waited {seconds:g} s in vain")
+
+
+def settle() -> None:
+    """Lets everything be drawn."""
+    end = time.monotonic() + _SETTLE_S
+    wait_until(lambda: time.monotonic() > end)
+
+
+def screenshot(name: str) -> None:
+    """Keeps the screen, 3-D view included, as ``name.png``."""
+    settle()
+    SHOTS.mkdir(parents=True, exist_ok=True)
+    QtGui.QApplication.primaryScreen().grabWindow(0).save(str(SHOTS / f"{name}.png"))
+
+
+def press_toolbar(text: str) -> None:
+    """Presses the button of Bladesmith's toolbar that is called ``text``."""
+    bar = child(QtGui.QToolBar, "Bladesmith")
+    found = [action for action in bar.actions() if action.text().replace("&", "") == text]
+    if not found:
+        raise AssertionError(f"no button '{text}' among {[a.text() for a in bar.actions()]}")
+    wait_until(found[0].isEnabled, 5)
+    found[0].trigger()
+
+
+def child(kind, name: str):
+    """The widget of the main window with this class and object name."""
+    found = FreeCADGui.getMainWindow().findChild(kind, name)
+    if found is None:
+        raise AssertionError(f"the window has no {kind.__name__} called {name}")
+    return found
+
+
+def press(name: str) -> None:
+    """Clicks a button by its object name."""
+    child(QtGui.QPushButton, name).click()
+
+
+def press_dialog(which) -> None:
+    """Clicks OK or Cancel of the task view."""
+    for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+        button = box.button(which)
+        if button is not None and button.isVisible():
+            button.click()
+            return
+    raise AssertionError("the task view has no such button")
+
+
+class Starvation:
+    """Longest time between two ticks of a 20 ms timer while inside; in seconds."""
+
+    def __enter__(self):
+        self.longest = 0.0
+        self._last = time.perf_counter()
+        self._timer = QtCore.QTimer()
+        self._timer.timeout.connect(self._tick)
+        self._timer.start(20)
+        return self
+
+    def _tick(self):
+        now = time.perf_counter()
+        self.longest, self._last = max(self.longest, now - self._last), now
+
+    def __exit__(self, *_exception):
+        self._tick()
+        self._timer.stop()
