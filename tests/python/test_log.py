@@ -102,6 +102,38 @@ class Commands(unittest.TestCase):
         self.assertTrue(self.file.with_name("mine.log.2").read_text().startswith("mine.log.1\n"))
 
 
+class InFreeCAD(unittest.TestCase):
+    def test_a_morph_of_a_document_is_kept_and_so_is_what_ends_it(self):
+        from freecad.bladesmith.model import MorphOptions
+        from freecad.bladesmith.native import InputError
+        from freecad.bladesmith.occ import step
+        from freecad.bladesmith.operations.morph import FieldFile, Job, complete
+
+        self.addCleanup(forget_the_log)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "mine.log")
+            brep = step.read(str(packed("base.step"))).shape.exportBrepToString()
+            with mock.patch.dict(os.environ, BLADESMITH_LOG=str(file)):
+                forget_the_log()
+                field = FieldFile(str(packed("base.frd")))
+                complete(Job(brep, "Part", field, MorphOptions()))
+                with self.assertRaises(InputError):
+                    complete(Job(brep, "Part", FieldFile("/home/jane/no.frd"), MorphOptions()))
+            text = file.read_text()
+        self.assertRegex(text, r"FreeCAD, morph: Bladesmith .*, FreeCAD \d+\.\d+")
+        self.assertRegex(text, r"fitting all faces together: \d")
+        self.assertRegex(text, r"ERROR InputError: no\.frd: ")
+        self.assertNotIn("jane", text)
+
+
+def forget_the_log():
+    """As in a process that has not started it."""
+    package = logging.getLogger("freecad.bladesmith")
+    for handler in [h for h in package.handlers if hasattr(h, "baseFilename")]:
+        package.removeHandler(handler)
+        handler.close()
+
+
 class Places(unittest.TestCase):
     def place(self, platform: str, **environment) -> Path:
         alone = mock.patch.dict(os.environ, environment, clear=True)

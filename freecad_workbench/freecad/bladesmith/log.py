@@ -15,6 +15,7 @@ import platform
 import re
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Optional
 
@@ -60,9 +61,21 @@ def start(what: str) -> None:
     _PACKAGE.info("%s: %s", what, ", ".join(_versions()))
 
 
-def failure(error: BaseException, expected: bool) -> None:
-    """Writes the error being handled; where it was not ``expected``, with what led to it."""
-    _PACKAGE.error("%s: %s", type(error).__name__, error, exc_info=not expected)
+def failure(error: Exception) -> None:
+    """Writes the error being handled; a defect with the calls that led to it."""
+    defect = getattr(error, "defect", True)
+    _PACKAGE.error("%s: %s", type(error).__name__, error, exc_info=defect)
+
+
+@contextmanager
+def kept(what: str):
+    """Starts the log, and writes the error that ends what is inside; also as a decorator."""
+    start(what)
+    try:
+        yield
+    except Exception as error:
+        failure(error)
+        raise
 
 
 def sizes(*files: Optional[str]) -> str:

@@ -50,8 +50,8 @@ def _failed(error: BladesmithError) -> int:
     if os.environ.get("BLADESMITH_DEBUG"):
         traceback.print_exc()
     message = " ".join(str(error).split())
-    log.failure(error, expected=not isinstance(error, InternalError))
-    if isinstance(error, InternalError):
+    log.failure(error)
+    if error.defect:
         message += f" (a defect of Bladesmith: please report it with the log, {log.path()})"
     print(f"bladesmith: {message}", file=sys.stderr)
     return error.exit_code
