@@ -9,7 +9,7 @@ EXAMPLE := examples/compressor_blade
 DEMO := build/demo
 TEST_PYTHON := build/venv/bin/python
 RUFF := build/venv/bin/ruff
-PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches cmake
+PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches cmake tools
 
 export PYTHON DESTDIR
 

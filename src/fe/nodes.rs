@@ -40,7 +40,8 @@ impl Rows {
         let mut conflicts = Vec::new();
         for same in order.chunk_by(|&a, &b| self.ids[a] == self.ids[b]) {
             let (id, value) = (self.ids[same[0]], self.values[same[same.len() - 1]]);
-            if same.iter().any(|&row| self.values[row] != value) {
+            let differs = |v: DVec3| v != value && !(v.is_nan() && value.is_nan());
+            if same.iter().any(|&row| differs(self.values[row])) {
                 conflicts.push(id);
             }
             sorted.push(id, value);

@@ -7,7 +7,7 @@ use super::links::{self, Context, JointLinks, Tie};
 use super::progress::{Progress, Shared, tell};
 use super::refine::{Limit, Marks};
 use super::space::Space;
-use super::surface_fit::{self, Cells, SHORTEST, SHORTEST_AT_EDGE};
+use super::surface_fit::{self, Cells, SHORTEST, SHORTEST_AT_EDGE, SINGULAR_MM};
 use super::system::{self, Block, PRESCRIBED};
 use crate::error::Result;
 use glam::{DVec2, DVec3};
@@ -19,6 +19,8 @@ const ROUNDS: [usize; 2] = [2, 4];
 const ALONE: f64 = 0.4;
 /// What is far off, as a fraction of the tolerance asked.
 const FAR: f64 = 0.8;
+/// The weight that a datum may come to; links between faces weigh far more.
+const HEAVIEST: f64 = 10.0;
 /// A jump along an edge that asks for finer knots, mm.
 const JUMP_MM: f64 = 1e-5;
 
@@ -65,6 +67,7 @@ pub struct Problem<'a> {
 /// [`crate::Error::Numerics`] where the equations cannot be solved, [`crate::Error::Cancelled`].
 pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
     let mut spaces = spaces_of_each(problem, &|stage, s| progress(stage, ALONE * s))?;
+    let mut data = problem.data.to_vec();
     let mut coefficients = Vec::new();
     for round in 0..ROUNDS[1] {
         let round_done = |part: f64| {
@@ -72,10 +75,13 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
             tell(progress, "fitting all faces together", ALONE + (1.0 - ALONE) * done)
         };
         round_done(0.0)?;
-        let coupled = Coupled::solve(problem, &spaces, &round_done)?;
+        let coupled = Coupled::solve(problem, &data, &spaces, &round_done)?;
         let more = round + 1 < ROUNDS[0]
-            || (round + 1 < ROUNDS[1] && coupled.worst_mm(problem, &spaces) > FAR * problem.tolerance_mm);
+            || (round + 1 < ROUNDS[1] && coupled.worst_mm() > FAR * problem.tolerance_mm);
         let finer = if more { coupled.refine(problem, &spaces)? } else { None };
+        if finer.is_some() {
+            coupled.weigh(&mut data);
+        }
         coefficients = coupled.coefficients;
         match finer {
             Some(finer) => spaces = finer,
@@ -113,12 +119,19 @@ struct Coupled {
     coefficients: Vec<Vec<DVec3>>,
     blocks: Vec<Block>,
     cells: Vec<Cells>,
+    /// Cell and size of what each datum is missed by.
+    residuals: Vec<Vec<(usize, f64)>>,
     links: Vec<JointLinks>,
 }
 
 impl Coupled {
     /// Sets up the equations and solves them; `part_done` hears fractions in between.
-    fn solve(problem: &Problem<'_>, spaces: &[Space], part_done: &dyn Fn(f64) -> Result<()>) -> Result<Self> {
+    fn solve(
+        problem: &Problem<'_>,
+        data: &[PatchData],
+        spaces: &[Space],
+        part_done: &dyn Fn(f64) -> Result<()>,
+    ) -> Result<Self> {
         let hot = problem.hot;
         let (unknowns, count) = number(hot, spaces, problem.prescribed);
         let (blocks, cells): (Vec<Block>, Vec<Cells>) = spaces
@@ -126,8 +139,8 @@ impl Coupled {
             .zip(unknowns)
             .enumerate()
             .map(|(p, (space, unknowns))| {
-                let cells = Cells::new(space, &problem.data[p]);
-                let equations = surface_fit::equations(space, &hot.patches[p].hot, &problem.data[p], &cells);
+                let cells = Cells::new(space, &data[p]);
+                let equations = surface_fit::equations(space, &hot.patches[p].hot, &data[p], &cells);
                 let prescribed =
                     problem.prescribed[p].clone().unwrap_or_else(|| vec![DVec3::ZERO; space.poles()]);
                 (Block { space: space.clone(), equations, unknowns, prescribed }, cells)
@@ -146,24 +159,31 @@ impl Coupled {
         part_done(0.3)?;
         let coefficients = system::solve(&blocks, &all, count, &|| part_done(0.5))?;
         part_done(0.8)?;
-        Ok(Self { coefficients, blocks, cells, links })
+        let missed = |p: usize| surface_fit::residuals(&spaces[p], &data[p], &cells[p], &coefficients[p]);
+        let residuals = (0..spaces.len()).into_par_iter().map(missed).collect();
+        Ok(Self { coefficients, blocks, cells, residuals, links })
     }
 
     /// The largest residual, mm.
-    fn worst_mm(&self, problem: &Problem<'_>, spaces: &[Space]) -> f64 {
-        let of_patch = |p: usize| {
-            let residuals =
-                surface_fit::residuals(&spaces[p], &problem.data[p], &self.cells[p], &self.coefficients[p]);
-            residuals.iter().map(|r| r.1).fold(0.0, f64::max)
-        };
-        (0..spaces.len()).into_par_iter().map(of_patch).reduce(|| 0.0, f64::max)
+    fn worst_mm(&self) -> f64 {
+        self.residuals.iter().flatten().map(|r| r.1).fold(0.0, f64::max)
+    }
+
+    /// Gives data that are missed by far more weight: the field is singular there, and the smooth
+    /// surface that the others ask for cuts the corner.
+    fn weigh(&self, data: &mut [PatchData]) {
+        for (patch, residuals) in data.iter_mut().zip(&self.residuals) {
+            for (datum, (_, missed)) in patch.data.iter_mut().zip(residuals) {
+                datum.weight = (datum.weight * missed / SINGULAR_MM).clamp(1.0, HEAVIEST);
+            }
+        }
     }
 
     /// Spaces with finer knots where edges gape or nodes are missed; none if nothing is asked.
     fn refine(&self, problem: &Problem<'_>, spaces: &[Space]) -> Result<Option<Vec<Space>>> {
         let hot = problem.hot;
         let mut marks: Vec<Marks> =
-            (0..spaces.len()).into_par_iter().map(|p| self.mark_missed(problem, &spaces[p], p)).collect();
+            (0..spaces.len()).into_par_iter().map(|p| self.mark_missed(problem, p)).collect();
         for (joint, links) in hot.joints.iter().zip(&self.links) {
             self.mark_gaping(problem, joint, links, &mut marks);
         }
@@ -181,7 +201,7 @@ impl Coupled {
     }
 
     /// Asks for finer knots where a patch misses its data, finer at edges than inside.
-    fn mark_missed(&self, problem: &Problem<'_>, space: &Space, p: usize) -> Marks {
+    fn mark_missed(&self, problem: &Problem<'_>, p: usize) -> Marks {
         let cells = &self.cells[p];
         let mut at_edge = vec![false; cells.count.len()];
         for (joint, links) in problem.hot.joints.iter().zip(&self.links) {
@@ -189,9 +209,8 @@ impl Coupled {
                 links.parameters.iter().for_each(|&t| at_edge[cells.index(side.pcurve.point(t))] = true);
             }
         }
-        let residuals = surface_fit::residuals(space, &problem.data[p], cells, &self.coefficients[p]);
         let shortest = |k: usize| if at_edge[k] { SHORTEST_AT_EDGE } else { SHORTEST };
-        surface_fit::mark(cells, &problem.hot.patches[p].hot, &residuals, shortest)
+        surface_fit::mark(cells, &problem.hot.patches[p].hot, &self.residuals[p], shortest)
     }
 
     /// Asks for finer knots on the coarser side of every sample at which a joint gapes.

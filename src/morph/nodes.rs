@@ -31,8 +31,8 @@ pub struct Nodes {
     pub largest_mm: f64,
 }
 
-/// Largest extent of the box around points.
-fn extent(points: impl Iterator<Item = DVec3>) -> f64 {
+/// Diagonal of the box around points.
+fn diagonal(points: impl Iterator<Item = DVec3>) -> f64 {
     let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(a, b), p| (a.min(p), b.max(p)));
     if low.x > high.x { 0.0 } else { (high - low).length() }
 }
@@ -82,7 +82,7 @@ fn default_tolerance(coordinate: f64) -> f64 {
 }
 
 fn check_unit(field: &Field, size_mm: f64) -> Result<()> {
-    let size = extent(field.points.iter().copied());
+    let size = diagonal(field.points.iter().copied());
     if size <= 0.0 || (size_mm / size - 1.0).abs() < 0.5 {
         return Ok(());
     }

@@ -8,9 +8,9 @@ use crate::nurbs::KnotVector;
 const PROBES: usize = 60;
 /// Shortest piece, as a fraction of the edge.
 const SHORTEST: f64 = 1e-4;
-
-/// Longest piece for quadrature, as a fraction of the edge.
+/// Longest piece for quadrature of a bent edge, as a fraction of it.
 const BENT: f64 = 1.0 / 16.0;
+/// The same of a straight edge.
 const STRAIGHT: f64 = 1.0 / 4.0;
 
 /// Fractions 0 ..= 1 of the edge between which its pcurves stay within one knot span of the given

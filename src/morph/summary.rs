@@ -103,7 +103,7 @@ pub fn summarise(
 fn solid(outcome: &Outcome<'_>, before: &Mass, after: &Mass, folded: usize) -> SolidReport {
     SolidReport {
         valid: None,
-        closed: true,
+        closed: outcome.selected.hot.joints.iter().all(|j| j.degenerated || j.sides.len() == 2),
         faces: outcome.selected.hot.faces.len(),
         folded,
         volume_mm3: Change { before: before.volume, after: after.volume },

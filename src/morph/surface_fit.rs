@@ -19,7 +19,7 @@ pub const TARGET_MM: f64 = 2.5e-5;
 /// Shortest side of a cell in node spacings, as long as only nodes ask for more.
 pub const SHORTEST: f64 = 2.0;
 /// A residual that asks for knots as dense as edges do, mm: the field is singular there.
-const SINGULAR_MM: f64 = 1e-4;
+pub const SINGULAR_MM: f64 = 1e-4;
 /// Shortest side of a cell in node spacings where an edge or a singularity asks for more.
 pub const SHORTEST_AT_EDGE: f64 = 0.5;
 /// The same where the field is singular.

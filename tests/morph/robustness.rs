@@ -12,10 +12,14 @@ use glam::DVec3;
 fn tiny_and_sliver_faces_follow() {
     let brep = solid("slivers");
     let u = |x: DVec3| bend(x, 0.004) + heat(x, 2e-5);
-    let done = run(&brep, &field(nodes(&brep, 0.7, |_| true), u), &Options::default());
+    let spacing = 0.7;
+    let done = run(&brep, &field(nodes(&brep, spacing, |_| true), u), &Options::default());
     let verdict = judge(&brep, &done.brep, u);
     assert_eq!(verdict.folded, 0);
-    assert!(verdict.error < 1e-3 && verdict.beyond_tolerance <= 0.0, "{verdict:?}");
+    assert!(
+        verdict.error < MESH * spacing * spacing + AIM_MM && verdict.beyond_tolerance <= 0.0,
+        "{verdict:?}"
+    );
 }
 
 /// Errors that the fit leaves alone, mm.

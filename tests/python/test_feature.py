@@ -167,6 +167,16 @@ class Refusals(Document):
         self.document.recompute()
         self.assertTrue(obj.isValid(), obj.getStatusString())
 
+    def test_what_to_do_is_said_in_names_of_properties(self):
+        obj = self.morph()
+        obj.FieldFile = str(awkward("metres"))
+        self.assert_refused(obj, "give FieldUnit m")
+        obj.FieldUnit = "m"
+        self.document.recompute()
+        self.assertTrue(obj.isValid(), obj.getStatusString())
+        obj.FieldFile, obj.FieldUnit = str(awkward("partial_face")), morph.NOT_STATED
+        self.assert_refused(obj, "give Extrapolate")
+
     def test_a_source_without_a_solid_is_refused(self):
         obj = self.morph()
         obj.Source = self.document.addObject("Part::Feature", "Faces")

@@ -37,8 +37,8 @@ def run_in_window(module: str, language: str = "English") -> str:
 
 
 class Window(unittest.TestCase):
-    def assert_passes(self, module):
-        failure = run_in_window(module)
+    def assert_passes(self, module, language="English"):
+        failure = run_in_window(module, language)
         self.assertFalse(failure, failure)
 
     def test_a_users_walk_with_the_blade(self):
@@ -46,6 +46,12 @@ class Window(unittest.TestCase):
 
     def test_awkward_inputs_in_the_panel(self):
         self.assert_passes("awkward_inputs")
+
+    def test_step_through_the_menus_report_and_fem_result(self):
+        self.assert_passes("exchange_and_report")
+
+    def test_the_window_in_german(self):
+        self.assert_passes("german", "German")
 
 
 if __name__ == "__main__":

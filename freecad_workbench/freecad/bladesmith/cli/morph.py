@@ -102,7 +102,7 @@ def _morph(
     settings = _settings(options, part, chosen)
     shape = part.shape if chosen is None else part.shape.Solids[chosen]
     field = FieldFile(options.field, options.mesh, options.step or 0)
-    job = Job(shape.exportBrepToString(), options.part, field, settings)
+    job = Job(shape, options.part, field, settings)
     read = time.monotonic() - started
     progress("reading the field", _READ_DONE / 2)
 

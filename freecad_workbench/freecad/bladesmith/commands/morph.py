@@ -28,6 +28,7 @@ class Morph:
         document = FreeCAD.ActiveDocument
         chosen = FreeCADGui.Selection.getSelection(document.Name)
         solids = [o for o in chosen if getattr(o, "Shape", None) and o.Shape.Solids]
+        FreeCADGui.Selection.clearSelection()
         document.openTransaction("Morph")
         obj = morph.create(document, solids[0] if solids else _only_solid(document))
         MorphView(obj.ViewObject)

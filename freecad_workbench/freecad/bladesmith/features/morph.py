@@ -13,10 +13,11 @@ from typing import Optional
 import FreeCAD
 
 from ..model import FIELD_UNITS_MM, MorphOptions
-from ..native import InputError
+from ..native import BladesmithError, InputError
 from ..operations.faces import selected
 from ..operations.morph import FieldFile, Job, Progress, Result, complete
 from . import attributes, fem, preferences
+from .naming import in_property_names
 from .properties import Property, add_missing
 
 SCHEMA_VERSION = 1
@@ -80,8 +81,9 @@ def _table() -> tuple[Property, ...]:
 
 @dataclass
 class Computed:
-    """The result of a job, by the job's state, with the lists that the object will show."""
+    """The result of a job, with the lists that the object will show."""
 
+    job: Job
     state: tuple
     result: Result
     lists: dict[str, list]
@@ -96,7 +98,7 @@ def computed(job: Job, progress: Optional[Progress] = None) -> Computed:
     for name in ("feet", "displacements", "deviations"):
         rows = nodes[name].tolist()
         lists[f"Node{name.capitalize()}"] = [FreeCAD.Vector(*row) for row in rows]
-    return Computed(state, result, lists)
+    return Computed(job, state, result, lists)
 
 
 class Morph:
@@ -115,10 +117,13 @@ class Morph:
 
     def execute(self, obj):
         """Called by FreeCAD to recompute. Raises what the inputs are refused for."""
-        job = job_of(obj)
         ready, self._ready = self._ready, None
-        fits = ready is not None and ready.state == job.state()
-        _store(obj, ready if fits else computed(job))
+        try:
+            job = job_of(obj)
+            fits = ready is not None and ready.state == job.state()
+            _store(obj, ready if fits else computed(job))
+        except BladesmithError as error:
+            raise type(error)(in_property_names(str(error))) from None
 
     def offer(self, ready: "Computed") -> None:
         """Takes what was computed elsewhere: the next recompute uses it if the input is its own."""
@@ -173,7 +178,7 @@ def job_of(obj) -> Job:
         face_names=tuple(faces),
         solid_name=name,
     )
-    return Job(shape.exportBrepToString(), name, _field(obj), options)
+    return Job(shape, name, _field(obj), options)
 
 
 def _source_shape(obj):

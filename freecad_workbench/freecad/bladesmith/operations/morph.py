@@ -1,6 +1,6 @@
-"""A morph from B-rep text and field to a judged solid, the same wherever it is asked for.
+"""A morph from shape and field to a judged solid, the same wherever it is asked for.
 
-A :class:`Job` is plain data: equal jobs give equal results, bit for bit. Any thread may run one.
+Equal jobs give equal results, bit for bit. Any thread may run one.
 """
 
 import time
@@ -56,16 +56,20 @@ class FieldNodes:
 
 @dataclass(frozen=True)
 class Job:
-    """One morph: a part as B-rep text with the name that messages use, a field, the settings."""
+    """One morph: Open CASCADE's shape with the name that messages use, a field, the settings."""
 
-    brep: str
+    shape: object
     name: str
     field: object
     options: MorphOptions
 
     def state(self) -> tuple:
-        """Equal for jobs with equal results, as long as no file changes."""
-        return self.brep, self.name, self.options, self.field.state()
+        """Equal for jobs with equal results, as long as this job is kept and no file changes."""
+        return self.shape.hashCode(), self.name, self.options, self.field.state()
+
+    def part(self) -> Part:
+        """The shape for the core. Raises :class:`InputError`."""
+        return Part.read(self.shape.exportBrepToString(), self.name)
 
 
 @dataclass
@@ -88,8 +92,7 @@ def run(job: Job, progress: Optional[Progress] = None) -> Result:
     Raises :class:`BladesmithError`, :class:`Cancelled` among them.
     """
     started = time.monotonic()
-    part = Part.read(job.brep, job.name)
-    field = job.field.read()
+    part, field = job.part(), job.field.read()
     read = time.monotonic() - started
     morphed = Morphed.morph(part, field, job.options.settings(), progress)
     report = Report(morphed.report())
@@ -103,8 +106,7 @@ def check(job: Job, progress: Optional[Progress] = None) -> tuple[dict, dict]:
 
     Raises what a run would refuse the input for.
     """
-    part = Part.read(job.brep, job.name)
-    field = job.field.read()
+    part, field = job.part(), job.field.read()
     return field.info(), native.check(part, field, job.options.settings(), progress)
 
 
@@ -118,7 +120,7 @@ def complete(job: Job, progress: Optional[Progress] = None) -> Result:
     result = run(job, progress)
     verdict = judge.judge(result.shape)
     if not (verdict.valid and verdict.closed):
-        solids = step.from_brep(job.brep).Solids
+        solids = job.shape.Solids
         hot = solids[step.nearest_solid(solids, result.shape)]
         accept(result.report, verdict, hot, f"{job.name} was not morphed")
     result.report.judged(verdict.valid, verdict.closed)

@@ -23,6 +23,8 @@ from .worker import Worker
 _UI = Path(__file__).parents[1] / "resources" / "panels" / "morph.ui"
 _PAUSE_MS = 250
 """The check waits this long for further typing."""
+_LAYOUT_MS = 50
+"""Time for widgets that have just been shown to find their place."""
 
 
 class MorphPanel:
@@ -107,6 +109,7 @@ class MorphPanel:
             return
         deviation = self.obj.ViewObject.Deviation
         self._enable(False)
+        self._reveal(self.form.running)
         self._worker.start(lambda progress: _completed(job, progress, deviation))
 
     def _job(self) -> Job:
@@ -120,6 +123,11 @@ class MorphPanel:
 
     def _check(self):
         if self.busy:
+            return
+        self._fields.write()
+        if not self.obj.FieldFile and self.obj.FieldObject is None:
+            text = translate("Choose a file with displacements, or a result of the FEM workbench.")
+            self._say(words.plain(text))
             return
         try:
             job = self._job()
@@ -160,7 +168,7 @@ class MorphPanel:
             self._say(words.error(translate("Stopped; the object stays as it was.")))
             return
         self._refuse(error)
-        FreeCAD.Console.PrintError(f"Bladesmith: {error}\n")
+        FreeCAD.Console.PrintError(f"Bladesmith: {words.for_panel(str(error))}\n")
 
     def _enable(self, enabled: bool):
         for name in ("partGroup", "fieldGroup", "fitGroup"):
@@ -173,8 +181,15 @@ class MorphPanel:
         self.form.resultGroup.setVisible(bool(text))
         if text:
             self.form.result.setText(words.result(Report.of_text(text), float(self.obj.Tolerance)))
+            self._reveal(self.form.resultGroup)
         known = FreeCADGui.listCommands()
         self.form.showResult.setVisible("Bladesmith_ShowResult" in known)
+
+    def _reveal(self, widget):
+        """Scrolls to a widget, once it has its place."""
+        for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
+            if area.isAncestorOf(widget):
+                QtCore.QTimer.singleShot(_LAYOUT_MS, lambda a=area: a.ensureWidgetVisible(widget))
 
     def _command(self, name: str):
         FreeCADGui.Selection.clearSelection()

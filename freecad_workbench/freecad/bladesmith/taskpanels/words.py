@@ -5,11 +5,21 @@ from html import escape
 
 from FreeCAD import Qt
 
+from ..features.naming import in_property_names
 from ..model import Report
 from ..report import words
 
 _GOOD, _ODD, _BAD = "#2e7d32", "#b26a00", "#c62828"
-_STATES = {"good": _GOOD, "odd": _ODD, "bad": _BAD}
+TRANSLATED = (
+    "placing nodes on faces",
+    "fitting each face",
+    "fitting all faces together",
+    "fitting without every tenth node",
+    "rebuilding the solid",
+    "measuring the result",
+    "drawing",
+)
+"""Stages of a morph, as the core names them."""
 
 
 def translate(text: str) -> str:
@@ -18,18 +28,15 @@ def translate(text: str) -> str:
 
 
 def for_panel(text: str) -> str:
-    """A message of the core with the panel's fields in place of the command line's options."""
+    """A message with the panel's fields in place of properties and options."""
+    text = in_property_names(text)
     fields = {
-        r"--field-unit (\w+)": translate("Length unit: {0}"),
-        r"--displacement-scale (\d+)": translate("Scale: {0}"),
-        r"--displacement-scale": translate("the field Scale"),
-        r"--solid N": translate("the field Solid"),
-        r"--match-tolerance": translate("a larger value at Match within"),
-        r"--extrapolate": translate("a tick at Extrapolate"),
+        "FieldUnit": translate("Length unit:"),
+        "DisplacementScale": translate("Scale"),
+        "MatchTolerance": translate("a larger value at Match within"),
+        "Extrapolate": translate("a tick at Extrapolate"),
     }
-    for option, field in fields.items():
-        text = re.sub(option, lambda found, f=field: f.format(*found.groups()), text)
-    return text
+    return re.sub("|".join(fields), lambda found: fields[found.group()], text)
 
 
 def error(text: str) -> str:
@@ -66,7 +73,7 @@ def check(info: dict, placement: dict) -> str:
             _GOOD,
         ),
     ]
-    if placement["unmatched_nodes"]:
+    if placement["unmatched_nodes"] and info["surface_nodes"] is not None:
         text = translate("{0} nodes of the mesh's surface lie on no face")
         lines.append(_line(text.format(placement["unmatched_nodes"]), _ODD))
     bare = placement["faces_without_nodes"]
@@ -78,15 +85,42 @@ def check(info: dict, placement: dict) -> str:
 
 def result(report: Report, tolerance_mm: float) -> str:
     """The verdict of a report, and its warnings."""
-    said = words.sentences(report, tolerance_mm)
-    first = _line(f"<b>{escape(said[0])}</b>", _STATES[words.state(report, tolerance_mm)], False)
-    return "".join([first, *map(_line, said[1:]), *map(_warning, report.warnings)])
+    worst, solid = report.worst_face(), report.solid
+    if report.misses(tolerance_mm):
+        text = translate("Largest deviation {0} mm, on {1}: beyond the tolerance of {2} mm")
+    else:
+        text = translate("Largest deviation {0} mm, on {1}: within the tolerance of {2} mm")
+    text = text.format(words.length(report.deviation_mm.max), worst.name, f"{tolerance_mm:g}")
+    lines = [_line(text, _BAD if report.misses(tolerance_mm) else _GOOD)]
+    sound = solid["valid"] and solid["closed"]
+    lines.append(
+        _line(translate("The solid is valid and closed"), _GOOD)
+        if sound
+        else _line(translate("The solid is not valid, or open"), _BAD)
+    )
+    if report.holdout_mm:
+        text = translate("Hold-out error: mean {0} mm, largest {1} mm")
+        figures = (words.length(value) for value in (report.holdout_mm.mean, report.holdout_mm.max))
+        lines.append(_line(text.format(*figures)))
+    edge = report.widest_edge()
+    if edge:
+        text = translate("Largest gap {0} mm, at Edge{1}; {2} mm before")
+        gap = edge.gap_mm
+        lines.append(
+            _line(text.format(words.length(gap.after), edge.index, words.length(gap.before)))
+        )
+    opened, tangent = words.opened(report), [edge for edge in report.edges if edge.tangent]
+    if tangent:
+        text = translate("{0} of {1} tangent joints opened")
+        colour = _ODD if opened else ""
+        lines.append(_line(text.format(len(opened), len(tangent)), colour))
+    return "".join([*lines, *map(_warning, report.warnings)])
 
 
 def _warning(text: str) -> str:
     return _line(translate("Warning: {0}").format(for_panel(text)), _ODD)
 
 
-def _line(text: str, colour: str = "", plain: bool = True) -> str:
+def _line(text: str, colour: str = "") -> str:
     style = f"margin:2px 0;{f'color:{colour}' if colour else ''}"
-    return f'<p style="{style}">{escape(text) if plain else text}</p>'
+    return f'<p style="{style}">{escape(text)}</p>'
