@@ -112,13 +112,13 @@ class InFreeCAD(unittest.TestCase):
         self.addCleanup(forget_the_log)
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "mine.log")
-            brep = step.read(str(packed("base.step"))).shape.exportBrepToString()
+            shape = step.read(str(packed("base.step"))).shape
             with mock.patch.dict(os.environ, BLADESMITH_LOG=str(file)):
                 forget_the_log()
                 field = FieldFile(str(packed("base.frd")))
-                complete(Job(brep, "Part", field, MorphOptions()))
+                complete(Job(shape, "Part", field, MorphOptions()))
                 with self.assertRaises(InputError):
-                    complete(Job(brep, "Part", FieldFile("/home/jane/no.frd"), MorphOptions()))
+                    complete(Job(shape, "Part", FieldFile("/home/jane/no.frd"), MorphOptions()))
             text = file.read_text()
         self.assertRegex(text, r"FreeCAD, morph: Bladesmith .*, FreeCAD \d+\.\d+")
         self.assertRegex(text, r"fitting all faces together: \d")
