@@ -23,7 +23,8 @@ const ROOMS: [(&str, usize); 11] = [
 
 /// Packages of the add-on with their rank; those of one rank stand beside each other and may be
 /// used by one another.
-const PACKAGES: [(&str, usize); 13] = [
+const PACKAGES: [(&str, usize); 14] = [
+    ("log", 0),
     ("native", 0),
     ("model", 1),
     ("occ", 2),

@@ -2,7 +2,8 @@
 
 use super::associate::Match;
 use super::measure::spread;
-use super::options::{Options, Progress};
+use super::options::Options;
+use super::progress::Progress;
 use super::report::Spread;
 use super::run::{Task, place};
 use crate::brep::Brep;

@@ -21,6 +21,7 @@ pub mod nodes;
 pub mod options;
 pub mod pieces;
 pub mod planar;
+pub mod progress;
 pub mod rebuild;
 pub mod refine;
 pub mod report;
@@ -34,7 +35,8 @@ pub mod system;
 pub mod trim;
 
 pub use check::check;
-pub use options::{Options, Progress};
+pub use options::Options;
+pub use progress::Progress;
 pub use report::Report;
 pub use run::morph;
 

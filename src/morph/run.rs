@@ -9,7 +9,8 @@ use super::fit::{self, Fit, Problem};
 use super::hot::{Hot, Joint, Patch};
 use super::links::{self, Tie};
 use super::measure;
-use super::options::{Options, Progress};
+use super::options::Options;
+use super::progress::{Progress, tell};
 use super::rebuild;
 use super::report::Seconds;
 use super::represent::reknot;
@@ -47,7 +48,7 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     let (selected, fixed) = place(brep, field, options, &mut warnings, progress)?;
     seconds.associate = start.elapsed().as_secs_f64();
 
-    step(progress, "fitting each face", 0.25)?;
+    tell(progress, "preparing the fit", 0.25)?;
     let clock = Instant::now();
     let task = Task::new(&selected, fixed, options, &mut warnings)?;
     let fit = task.fit(&|_| true, &|stage, s| progress(stage, 0.3 + 0.4 * s))?;
@@ -55,18 +56,18 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     let holdout = if options.holdout { Some(task.holdout(progress)?) } else { None };
     seconds.fit = clock.elapsed().as_secs_f64();
 
-    step(progress, "rebuilding the solid", 0.75)?;
+    tell(progress, "rebuilding the solid", 0.75)?;
     let clock = Instant::now();
     let edges = rebuild::new_edges(&selected.hot, &cold)?;
     let out = rebuild::rebuild(&selected.brep, &selected.hot, &cold, &edges);
-    step(progress, "measuring the result", 0.85)?;
+    tell(progress, "measuring the result", 0.85)?;
     let outcome =
         Outcome { selected: &selected, task: &task, fit: &fit, cold: &cold, edges: &edges, out: &out };
     let (mut report, nodes) = summary::summarise(&outcome, field, options, holdout.as_deref(), warnings)?;
     seconds.rebuild = clock.elapsed().as_secs_f64();
     seconds.total = start.elapsed().as_secs_f64();
     report.seconds = seconds;
-    step(progress, "done", 1.0)?;
+    tell(progress, "done", 1.0)?;
     Ok(Morphed { brep: out, report, nodes })
 }
 
@@ -82,15 +83,11 @@ pub fn place(
     progress: Progress<'_>,
 ) -> Result<(Selected, Vec<bool>)> {
     options.check()?;
-    step(progress, "placing nodes on faces", 0.05)?;
+    tell(progress, "placing nodes on faces", 0.05)?;
     let mut selected = select(brep, field, options, warnings)?;
     let fixed = fixed_faces(&selected.hot, options)?;
     hold_nodes(&mut selected, &fixed);
     Ok((selected, fixed))
-}
-
-fn step(progress: Progress<'_>, stage: &str, fraction: f64) -> Result<()> {
-    if progress(stage, fraction) { Ok(()) } else { Err(Error::Cancelled) }
 }
 
 /// What is to be fitted, ready to go.

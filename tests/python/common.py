@@ -32,6 +32,9 @@ FreeCAD = sys.modules["FreeCAD"]
 
 _RESULTS = tempfile.TemporaryDirectory(prefix="bladesmith-tests-")
 
+# The tests must not fill the user's log.
+os.environ["BLADESMITH_LOG"] = str(Path(_RESULTS.name, "bladesmith.log"))
+
 
 def bladesmith(*arguments, **environment) -> subprocess.CompletedProcess:
     """Runs the command line with a fixed header time; output as text."""

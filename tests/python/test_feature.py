@@ -15,7 +15,7 @@ from freecad.bladesmith.occ import step
 from freecad.bladesmith.occ.attributes import SolidAttributes
 
 INSIDE = Path(__file__).with_name("inside_freecad.py")
-PROGRAM = common.ROOT / "tests" / "consumer" / "c" / "morph_part.c"
+PROGRAM = common.ROOT / "examples" / "c" / "morph.c"
 
 
 class Document(unittest.TestCase):
@@ -135,7 +135,7 @@ class Sameness(Document):
         subprocess.run(["gcc", *flags, "-o", program, PROGRAM, library, "-lm"], check=True)
         shape = step.read(str(packed("base.step"))).shape
         hot.write_text(shape.Solids[0].exportBrepToString())
-        command = [program, hot, packed("base.frd"), cold, self.folder / "report.json"]
+        command = [program, hot, packed("base.frd"), "-1", cold]
         done = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return cold.read_text()
@@ -281,7 +281,7 @@ class Reopened(Document):
         self.assertFalse(found["valid"])
         self.assertGreater(found["volume_before"], 1.0)
         self.assertEqual(found["volume"], found["volume_before"])
-        self.assertRegex(found["status"], "library of Bladesmith was not found.*install the add-on")
+        self.assertRegex(found["status"], "library of Bladesmith was not found.*run 'make build'")
 
     def test_an_older_document_gets_what_it_lacks_once(self):
         path = self.saved()

@@ -7,4 +7,9 @@ Rooms, each using only those before it: ``native`` (the core, by ctypes), ``mode
 Lengths are millimetres, angles degrees, faces and edges count from 1.
 """
 
+import logging
+
 __version__ = "0.1.0"
+
+# Without a log file, warnings are not for the terminal: the commands say them in their own way.
+logging.getLogger(__name__).addHandler(logging.NullHandler())

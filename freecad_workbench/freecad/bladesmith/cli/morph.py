@@ -49,6 +49,7 @@ def run(options: argparse.Namespace) -> int:
         _write_solid(options, part, result, outputs, progress)
         result.report.seconds["write"] += time.monotonic() - written
         _write_report(options, result, outputs, progress, started)
+        interruption.too_late()
         outputs.commit()
     missed = result.report.misses(options.tolerance)
     if not options.quiet:

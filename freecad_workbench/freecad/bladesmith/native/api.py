@@ -6,6 +6,7 @@ Each owns one handle of the core and frees it with itself. Calls raise the excep
 
 import ctypes
 import json
+import logging
 import os
 from collections.abc import Sequence
 from contextlib import contextmanager
@@ -21,8 +22,11 @@ from ctypes import (
 )
 from typing import Callable, Optional
 
+from .. import log
 from .errors import Cancelled, from_status
 from .finder import load
+
+_LOG = logging.getLogger(__name__)
 
 ProgressFunction = ctypes.CFUNCTYPE(c_int32, c_void_p, c_char_p, c_double)
 
@@ -50,6 +54,8 @@ class MorphOptions(ctypes.Structure):
         ("solid_name", c_char_p),
     ]
 
+
+_SCALARS = [name for name, kind in MorphOptions._fields_ if kind in (c_double, c_uint32)]
 
 _TEXT = (c_void_p, c_char_p, c_size_t, POINTER(c_size_t))
 
@@ -172,6 +178,7 @@ class Field(_Handle):
     @classmethod
     def read(cls, path: str, mesh: Optional[str] = None, step: int = 0) -> "Field":
         """Reads results; ``mesh`` is the deck with full-precision nodes, ``step`` 0 the last."""
+        _LOG.info("field: %s, step %s", log.sizes(path, mesh), step or "the last")
         field = cls()
         mesh_bytes = None if mesh is None else os.fsencode(mesh)
         field._core.bladesmith_field_read(os.fsencode(path), mesh_bytes, step, byref(field._handle))
@@ -190,6 +197,7 @@ class Field(_Handle):
                 f"{ids.shape} ids need as many points and displacements of three components, "
                 f"not {points.shape} and {displacements.shape}"
             )
+        _LOG.info("field: %d nodes in arrays", len(ids))
         field = cls()
         field._core.bladesmith_field_from_arrays(
             name.encode(),
@@ -216,6 +224,7 @@ class Part(_Handle):
         """Parses B-rep text; ``name`` stands for it in messages."""
         part = cls()
         data = text.encode()
+        _LOG.info("part: %s, %d bytes of B-rep", os.path.basename(name), len(data))
         part._core.bladesmith_part_read(data, len(data), name.encode(), byref(part._handle))
         return part
 
@@ -278,7 +287,11 @@ class Morphed(_Handle):
 
     def report(self) -> dict:
         """The figures, under the names of the JSON report."""
-        return json.loads(_text(self._core.bladesmith_morphed_report, self._handle))
+        report = json.loads(_text(self._core.bladesmith_morphed_report, self._handle))
+        _LOG.info("largest deviation %.2e mm", report["deviation_mm"]["max"])
+        for warning in report["warnings"]:
+            _LOG.warning("%s", warning)
+        return report
 
     def nodes(self) -> dict:
         """Arrays by node and face: ids, faces, feet, displacements, deviations (mm)."""
@@ -317,11 +330,15 @@ def check(part: Part, field: Field, settings: dict, progress: Optional[Callable]
 def _call_of(core: ctypes.CDLL, settings: dict, progress: Optional[Callable[[str, float], bool]]):
     """Options and callback for one call of the core; what ``progress`` raises comes out of it."""
     options, kept = _options(core, settings)
+    _LOG.info("settings: %s", {name: getattr(options, name) for name in _SCALARS})
+    stages = log.Stages(_LOG)
     raised = []
 
     def call(_user, stage, fraction):
         try:
-            return 0 if progress is None or progress(stage.decode(), fraction) else 1
+            name = stage.decode()
+            stages.enter(name)
+            return 0 if progress is None or progress(name, fraction) else 1
         except BaseException as exception:  # must not cross the C frames
             raised.append(exception)
             return 1
@@ -333,6 +350,7 @@ def _call_of(core: ctypes.CDLL, settings: dict, progress: Optional[Callable[[str
             raise raised[0] from None
         raise
     finally:
+        stages.end()
         del kept
 
 
@@ -350,9 +368,8 @@ def _options(core: ctypes.CDLL, settings: dict):
     options.fixed_faces, options.fixed_count = fixed, len(fixed)
     options.face_names, options.face_names_count = names, len(names)
     options.solid_name = solid_name
-    scalars = {name for name, kind in MorphOptions._fields_ if kind in (c_double, c_uint32)}
     for name, value in settings.items():
-        if name not in scalars:
+        if name not in _SCALARS:
             raise TypeError(f"a morph has no setting '{name}'")
         setattr(options, name, value)
     return options, (moving, fixed, names, encoded, solid_name)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Optional
 
-from .. import native
+from .. import log, native
 from ..model import MorphOptions, Report
 from ..native import BladesmithError, Field, Morphed, Part
 from ..occ import judge, step
@@ -110,6 +110,7 @@ def check(job: Job, progress: Optional[Progress] = None) -> tuple[dict, dict]:
     return field.info(), native.check(part, field, job.options.settings(), progress)
 
 
+@log.kept("FreeCAD, morph")
 def complete(job: Job, progress: Optional[Progress] = None) -> Result:
     """Morphs and has Open CASCADE judge the solid; its verdict is in the report.
 
