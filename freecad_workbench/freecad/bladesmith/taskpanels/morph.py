@@ -147,7 +147,7 @@ class MorphPanel:
 
     def _progress(self, stage: str, fraction: float):
         self.form.progress.setValue(round(1000 * fraction))
-        self.form.progress.setFormat(f"{translate(stage)} – %p %" if stage else "")
+        self.form.stage.setText(translate(stage))
 
     def _finish(self, ready: morph.Computed):
         self._enable(True)
