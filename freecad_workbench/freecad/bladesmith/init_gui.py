@@ -10,6 +10,8 @@ from .commands.names import COMMANDS, icon
 from .commands.report import OpenReport
 from .commands.result import ShowResult
 from .commands.step import ExportStep, ImportStep
+from .taskpanels.morph import MorphPanel
+from .viewproviders.morph import MorphView
 
 _RESOURCES = Path(__file__).parent / "resources"
 
@@ -48,4 +50,5 @@ FreeCADGui.addPreferencePage(str(_RESOURCES / "panels" / "preferences.ui"), "Bla
 for name, command in _REGISTERED.items():
     FreeCADGui.addCommand(name, command())
 exchange.register()
+MorphView.make_panel = staticmethod(MorphPanel)
 FreeCADGui.addWorkbench(BladesmithWorkbench())

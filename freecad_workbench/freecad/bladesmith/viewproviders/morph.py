@@ -21,6 +21,9 @@ _APART = 1.2
 class MorphView:
     """View provider; nothing of it is saved but its properties."""
 
+    make_panel = None
+    """Makes the panel of an object; panels know views, so the workbench sets it."""
+
     def __init__(self, view):
         view.Proxy = self
         _add_properties(view)
@@ -45,12 +48,10 @@ class MorphView:
 
     def setEdit(self, view, _mode=0):
         """Opens the panel."""
-        from ..taskpanels.morph import MorphPanel
-
         document = view.Object.Document
         if not document.HasPendingTransaction:
             document.openTransaction("Edit morph")
-        self.panel = MorphPanel(view.Object)
+        self.panel = self.make_panel(view.Object)
         FreeCADGui.Control.showDialog(self.panel)
         return True
 
