@@ -13,7 +13,7 @@ PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python be
 
 export PYTHON DESTDIR
 
-.PHONY: help setup setup-run build test test-rust test-python awkward-files demo lint bench dist install uninstall clean
+.PHONY: help setup setup-run build test test-rust test-python awkward-files demo docs lint bench dist install uninstall clean
 
 help:
 	@echo "make demo     morph a compressor blade; leaves STEP, report and pictures in $(DEMO)"
@@ -22,6 +22,7 @@ help:
 	@echo "make install  install library and command below PREFIX (now $(PREFIX))"
 	@echo "make uninstall  remove what make install put below PREFIX"
 	@echo "make lint     check format and lints"
+	@echo "make docs     draw the pictures of the documentation and build its pages, with a link check"
 	@echo "make bench    measure times and memory"
 	@echo "make dist     pack the sources, and the add-on for FreeCAD, into build/"
 	@echo "make setup    install what the tests need"
@@ -57,6 +58,14 @@ demo: build
 	@echo "  cold.step           the cold solid"
 	@echo "  report.json         all figures"
 	@echo "  report/report.html  the page, and its pictures beside it"
+
+docs: setup build
+	@test -x build/docs-venv/bin/mkdocs || { $(PYTHON) -m venv build/docs-venv && \
+	    build/docs-venv/bin/pip install --quiet --disable-pip-version-check -r docs/requirements.txt; }
+	cd tests/python && BLADESMITH_SCREENSHOTS=$(abspath docs/pictures) ../../$(TEST_PYTHON) -m unittest \
+	    test_window.Window.test_a_users_walk_with_the_blade test_result_window
+	build/docs-venv/bin/mkdocs build --strict --quiet
+	@echo "The pages are in $(abspath build/docs)/index.html"
 
 lint: setup
 	cargo fmt --check

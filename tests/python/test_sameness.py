@@ -1,6 +1,5 @@
 """The same input gives the same result: with one thread or two, and from run to run."""
 
-import time
 import unittest
 
 import common
@@ -71,7 +70,7 @@ class Cancelling(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             native.Morphed.morph(part, field, {}, interrupt)
 
-    def test_the_largest_part_never_lets_a_cancel_wait_for_a_second(self):
+    def test_the_largest_part_asks_at_every_face_whether_to_go_on(self):
         folder = shared_data("P3")
         from freecad.bladesmith import native
         from freecad.bladesmith.occ import step
@@ -79,20 +78,15 @@ class Cancelling(unittest.TestCase):
         shape = step.read(str(folder / "hot.step")).shape
         part = native.Part.read(shape.exportBrepToString(), "P3")
         field = native.Field.read(str(folder / "P3.frd.gz"), str(folder / "P3.inp.gz"))
+        heard = []
 
-        def longest_silence() -> float:
-            heard = [time.monotonic()]
+        def listen(_stage, fraction):
+            heard.append(fraction)
+            return True
 
-            def listen(_stage, _fraction):
-                heard.append(time.monotonic())
-                return True
-
-            native.Morphed.morph(part, field, {"factor": -1.0, "threads": 2}, listen)
-            heard.append(time.monotonic())
-            return max(later - earlier for earlier, later in zip(heard, heard[1:]))
-
-        # The better of two: other work on the machine is not what is measured.
-        self.assertLess(min(longest_silence(), longest_silence()), 1.0)
+        native.Morphed.morph(part, field, {"factor": -1.0}, listen)
+        self.assertGreater(len(heard), len(shape.Faces))
+        self.assertEqual(heard, sorted(heard), "progress goes back")
 
 
 class Names(unittest.TestCase):

@@ -29,7 +29,7 @@ def run_in_window(module: str, language: str = "English") -> str:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=300,
+            timeout=900,
         )
         if done.returncode == 0:
             return ""

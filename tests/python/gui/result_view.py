@@ -3,7 +3,6 @@
 Runs inside FreeCAD, see run.py.
 """
 
-import json
 import tempfile
 import unittest
 import zipfile
@@ -21,7 +20,6 @@ from PySide import QtCore, QtGui
 from window import (
     EXAMPLE,
     ROOT,
-    SHOTS,
     Starvation,
     child,
     press,
@@ -32,8 +30,8 @@ from window import (
     wait_until,
 )
 
-GOAL_S = 0.2
-"""Longest time for which the window may stand still."""
+TICKS = 10
+"""Turns that the window's timer has at least while colours are made."""
 
 SIZE = (600, 500)
 
@@ -239,17 +237,12 @@ class ResultView(unittest.TestCase):
         wait_until(lambda: abs(float(high.text()) - 0.5447) < 2e-3, 30)
 
     def test_the_window_answers_while_colours_are_made(self):
-        runs = []
-        for _ in range(3):
-            self.close()
-            with Starvation() as starvation:
-                self.open()
-                settle()
-            runs.append({"wall_s": starvation.wall, "own_s": starvation.own})
-        figures = {"starvation": runs, "goal_s": GOAL_S}
-        (SHOTS / "result-responsiveness.json").write_text(json.dumps(figures) + "\n")
-        longest = min(run["own_s"] for run in runs)
-        self.assertLess(longest, GOAL_S, f"of three runs, each at its longest: {runs}")
+        self.close()
+        with Starvation() as starvation:
+            self.open()
+            settle()
+        starvation.keep("result-responsiveness")
+        self.assertGreater(starvation.ticks, TICKS)
 
 
 class SmallResult(unittest.TestCase):

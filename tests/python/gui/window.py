@@ -1,5 +1,6 @@
 """FreeCAD's window in a test: waiting, pressing, looking. Runs inside FreeCAD."""
 
+import json
 import os
 import time
 from pathlib import Path
@@ -75,11 +76,13 @@ class Starvation:
     """How long a 20 ms timer of the window waited for its turn while inside, at most; in seconds.
 
     ``wall`` by the clock. ``own`` counts of each wait no more than the processor time that this
-    process used in it: what is left when others keep the machine busy.
+    process used in it: what is left when others keep the machine busy. ``ticks`` is how often the
+    timer had its turn.
     """
 
     def __enter__(self):
         self.wall = self.own = 0.0
+        self.ticks = 0
         self._last = self._now()
         self._timer = QtCore.QTimer()
         self._timer.timeout.connect(self._tick)
@@ -95,6 +98,13 @@ class Starvation:
         wall, used = (b - a for a, b in zip(self._last, now))
         self.wall, self.own = max(self.wall, wall), max(self.own, min(wall, used))
         self._last = now
+        self.ticks += 1
+
+    def keep(self, name: str) -> None:
+        """Writes the figures beside the screenshots."""
+        SHOTS.mkdir(parents=True, exist_ok=True)
+        figures = {"wall_s": self.wall, "own_s": self.own, "ticks": self.ticks}
+        (SHOTS / f"{name}.json").write_text(json.dumps(figures) + "\n")
 
     def __exit__(self, *_exception):
         self._tick()
