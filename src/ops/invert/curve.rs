@@ -41,11 +41,11 @@ impl<P: Point> Tube<P> {
         let squared = chord.dot(chord);
         let inverse = if squared > 0.0 { 1.0 / squared } else { 0.0 };
         let mut tube = Self { start, chord, inverse, radius: 0.0 };
-        tube.radius = points.iter().map(|&x| tube.from_chord(x)).fold(0.0, f64::max);
+        tube.radius = points.iter().map(|&x| tube.off_chord(x)).fold(0.0, f64::max);
         tube
     }
 
-    fn from_chord(&self, p: P) -> f64 {
+    fn off_chord(&self, p: P) -> f64 {
         let r = p - self.start;
         let s = (r.dot(self.chord) * self.inverse).clamp(0.0, 1.0);
         (r - self.chord * s).length()
@@ -53,7 +53,7 @@ impl<P: Point> Tube<P> {
 
     /// A lower bound of the distance to `p`.
     fn nearest(&self, p: P) -> f64 {
-        (self.from_chord(p) - self.radius).max(0.0)
+        (self.off_chord(p) - self.radius).max(0.0)
     }
 }
 
