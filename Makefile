@@ -64,7 +64,7 @@ docs: setup build
 	    build/docs-venv/bin/pip install --quiet --disable-pip-version-check -r docs/requirements.txt; }
 	cd tests/python && ../../$(TEST_PYTHON) -m unittest \
 	    test_window.Window.test_a_users_walk_with_the_blade test_result_window
-	cd build/screenshots && cp $(notdir $(shell grep -oh 'pictures/[^)]*' docs/*.md | sort -u)) ../../docs/pictures/
+	cd build/screenshots && cp $(notdir $(shell grep -oh 'pictures/[a-z0-9-]*\.png' docs/*.md | sort -u)) ../../docs/pictures/
 	build/docs-venv/bin/mkdocs build --strict --quiet
 	@echo "The pages are in $(abspath build/docs)/index.html"
 
