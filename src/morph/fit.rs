@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Rounds of the coupled solve as a rule, and where something is still far off.
-const ROUNDS: [usize; 2] = [2, 4];
+const ROUNDS: [usize; 2] = [3, 4];
 /// Part of the work that goes into each patch on its own.
 const ALONE: f64 = 0.4;
 /// What is far off, as a fraction of the tolerance asked.
