@@ -168,10 +168,14 @@ fn rooms_use_only_rooms_before_them() {
     assert!(wrong.is_empty(), "a room may only use rooms before it:\n{}", wrong.join("\n"));
 }
 
+/// The one file outside of ffi with unsafe code: processor instructions chosen at run time.
+const UNSAFE_FILE: &str = "nurbs/wide.rs";
+
 #[test]
-fn unsafe_code_is_in_ffi_only() {
+fn unsafe_code_is_in_ffi_and_one_file_only() {
     let mut wrong = Vec::new();
-    for file in files(&sources(), "rs").iter().filter(|file| first_part(file) != "ffi") {
+    let safe = |file: &&PathBuf| first_part(file) != "ffi" && file.as_path() != Path::new(UNSAFE_FILE);
+    for file in files(&sources(), "rs").iter().filter(safe) {
         let text = fs::read_to_string(sources().join(file)).expect("a readable source");
         let mut all = Vec::new();
         words(&tokens(&text), &mut all);
@@ -179,7 +183,7 @@ fn unsafe_code_is_in_ffi_only() {
             wrong.push(format!("src/{}", file.display()));
         }
     }
-    assert!(wrong.is_empty(), "unsafe code belongs into src/ffi:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "unsafe code belongs into src/ffi or src/{UNSAFE_FILE}:\n{}", wrong.join("\n"));
 }
 
 #[test]

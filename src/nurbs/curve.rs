@@ -18,6 +18,10 @@ pub trait Point:
     + Send
     + Sync
 {
+    /// Number of coordinates.
+    const DIMENSION: usize;
+    /// One coordinate.
+    fn coordinate(self, index: usize) -> f64;
     /// Scalar product.
     fn dot(self, other: Self) -> f64;
     /// Whether every coordinate is finite.
@@ -29,6 +33,10 @@ pub trait Point:
 }
 
 impl Point for DVec2 {
+    const DIMENSION: usize = 2;
+    fn coordinate(self, index: usize) -> f64 {
+        self[index]
+    }
     fn dot(self, other: Self) -> f64 {
         DVec2::dot(self, other)
     }
@@ -38,6 +46,10 @@ impl Point for DVec2 {
 }
 
 impl Point for DVec3 {
+    const DIMENSION: usize = 3;
+    fn coordinate(self, index: usize) -> f64 {
+        self[index]
+    }
     fn dot(self, other: Self) -> f64 {
         DVec3::dot(self, other)
     }

@@ -3,13 +3,31 @@
 //! Algorithms after Piegl and Tiller, *The NURBS Book* (2nd ed., 1997), cited by number.
 
 pub mod basis;
+pub mod conic;
+pub mod construct;
 pub mod curve;
+pub mod degree;
+pub mod derivatives;
+pub mod differential;
+pub mod evaluator;
 pub mod grid;
+pub mod join;
+mod knots;
+pub mod length;
 pub mod refine;
+pub mod removal;
+mod span_table;
+pub mod split;
 pub mod surface;
+mod wide;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};
+pub use derivatives::Side;
+pub use differential::{Frenet, PrincipalCurvatures};
+pub use evaluator::SurfaceEvaluator;
 pub use grid::{BasisTable, IsoLine};
+pub use join::compatible;
+pub use length::ArcLength;
 pub use refine::Direction;
 pub use surface::{NurbsSurface, SurfaceDerivatives};

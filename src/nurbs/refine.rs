@@ -8,20 +8,21 @@ use glam::DVec3;
 use std::ops::{Add, Mul};
 
 /// Homogeneous poles of a curve (one column) or surface; knots are inserted along the rows.
-struct Net<P: Point> {
+#[derive(Clone)]
+pub(super) struct Net<P: Point> {
     columns: usize,
     poles: Vec<P>,
     weights: Option<Vec<f64>>,
 }
 
 impl<P: Point> Net<P> {
-    fn new(columns: usize, poles: &[P], weights: Option<&[f64]>) -> Self {
+    pub(super) fn new(columns: usize, poles: &[P], weights: Option<&[f64]>) -> Self {
         let weight = |i: usize| weights.map_or(1.0, |w| w[i]);
         let poles = poles.iter().enumerate().map(|(i, &p)| p * weight(i)).collect();
         Self { columns, poles, weights: weights.map(<[f64]>::to_vec) }
     }
 
-    fn transposed(&self) -> Self {
+    pub(super) fn transposed(&self) -> Self {
         let rows = self.poles.len() / self.columns;
         let order = || (0..self.poles.len()).map(|i| (i % rows) * self.columns + i / rows);
         Self {
@@ -37,14 +38,33 @@ impl<P: Point> Net<P> {
         self.weights = self.weights.as_ref().map(|w| blend(w, self.columns, share));
     }
 
-    fn keep_rows(&mut self, rows: std::ops::Range<usize>) {
+    /// As many rows as there are entries, each the sum of shares of the old ones.
+    pub(super) fn combine(&mut self, shares: &[Vec<(usize, f64)>]) {
+        self.poles = combined(&self.poles, self.columns, shares);
+        self.weights = self.weights.as_ref().map(|w| combined(w, self.columns, shares));
+    }
+
+    /// Bound of the distance between what this net and another with the same knots and as many
+    /// rows stand for.
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        let Some((w, v)) = self.weights.as_ref().zip(other.weights.as_ref()) else {
+            return self.poles.iter().zip(&other.poles).map(|(&a, &b)| (a - b).length()).fold(0.0, f64::max);
+        };
+        let smallest = w.iter().chain(v).copied().fold(f64::MAX, f64::min);
+        let far = self.poles.iter().zip(w).map(|(&a, &w)| (a / w).length()).fold(0.0, f64::max);
+        let each =
+            (0..w.len()).map(|i| (self.poles[i] - other.poles[i]).length() + far * (w[i] - v[i]).abs());
+        each.fold(0.0, f64::max) / smallest
+    }
+
+    pub(super) fn keep_rows(&mut self, rows: std::ops::Range<usize>) {
         let range = rows.start * self.columns..rows.end * self.columns;
         self.poles = self.poles[range.clone()].to_vec();
         self.weights = self.weights.as_ref().map(|w| w[range].to_vec());
     }
 
     /// Poles and weights, no longer homogeneous.
-    fn project(self) -> (Vec<P>, Option<Vec<f64>>) {
+    pub(super) fn project(self) -> (Vec<P>, Option<Vec<f64>>) {
         let poles = match &self.weights {
             None => self.poles,
             Some(w) => self.poles.iter().zip(w).map(|(&p, &w)| p / w).collect(),
@@ -65,8 +85,24 @@ where
     (0..share.len() * columns).map(entry).collect()
 }
 
+fn combined<T>(old: &[T], columns: usize, shares: &[Vec<(usize, f64)>]) -> Vec<T>
+where
+    T: Copy + Default + Add<Output = T> + Mul<f64, Output = T>,
+{
+    let entry = |row: &[(usize, f64)], c: usize| match row {
+        [(i, 1.0)] => old[i * columns + c],
+        _ => row.iter().fold(T::default(), |sum, &(i, share)| sum + old[i * columns + c] * share),
+    };
+    shares.iter().flat_map(|row| (0..columns).map(move |c| entry(row, c))).collect()
+}
+
 /// Inserts `t` until it has at least this multiplicity.
-fn raise<P: Point>(knots: KnotVector, net: &mut Net<P>, t: f64, multiplicity: usize) -> Result<KnotVector> {
+pub(super) fn raise<P: Point>(
+    knots: KnotVector,
+    net: &mut Net<P>,
+    t: f64,
+    multiplicity: usize,
+) -> Result<KnotVector> {
     let p = knots.degree();
     let mut flat = knots.flat().to_vec();
     let present = flat.iter().filter(|&&k| k == t).count();
@@ -86,8 +122,16 @@ fn raise<P: Point>(knots: KnotVector, net: &mut Net<P>, t: f64, multiplicity: us
 
 /// Clamps knots and net at both ends of the domain.
 fn clamp<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVector> {
+    window(knots, net, knots.domain())
+}
+
+/// Cuts knots and net to a part of the domain, clamped.
+pub(super) fn window<P: Point>(
+    knots: &KnotVector,
+    net: &mut Net<P>,
+    (a, b): (f64, f64),
+) -> Result<KnotVector> {
     let p = knots.degree();
-    let (a, b) = knots.domain();
     let knots = raise(knots.clone(), net, a, p)?;
     let knots = raise(knots, net, b, p)?;
     let flat = knots.flat();
@@ -98,6 +142,19 @@ fn clamp<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVector> {
     clamped.extend_from_slice(&flat[start + 1 - p..end + p]);
     clamped.push(b);
     KnotVector::new(p, clamped)
+}
+
+/// Inserts all knots, ascending, one after the other.
+pub(super) fn insert_all<P: Point>(knots: &KnotVector, net: &mut Net<P>, new: &[f64]) -> Result<KnotVector> {
+    if let Some(w) = new.windows(2).find(|w| w[1].is_nan() || w[1] < w[0]) {
+        return Err(Error::Spline { why: format!("knots to insert must ascend: {} follows {}", w[1], w[0]) });
+    }
+    let mut knots = knots.clone();
+    for same in new.chunk_by(|a, b| a == b) {
+        let multiplicity = check_insertion(&knots, same[0], same.len())?;
+        knots = raise(knots, net, same[0], multiplicity)?;
+    }
+    Ok(knots)
 }
 
 fn is_clamped(knots: &KnotVector) -> bool {
@@ -122,7 +179,10 @@ fn check_insertion(knots: &KnotVector, t: f64, times: usize) -> Result<usize> {
 }
 
 impl<P: Point> NurbsCurve<P> {
-    fn reshape(&self, change: impl FnOnce(&KnotVector, &mut Net<P>) -> Result<KnotVector>) -> Result<Self> {
+    pub(super) fn reshape(
+        &self,
+        change: impl FnOnce(&KnotVector, &mut Net<P>) -> Result<KnotVector>,
+    ) -> Result<Self> {
         let mut net = Net::new(1, self.poles(), self.weights());
         let knots = change(self.knots(), &mut net)?;
         let (poles, weights) = net.project();
@@ -137,6 +197,14 @@ impl<P: Point> NurbsCurve<P> {
     pub fn insert_knot(&self, t: f64, times: usize) -> Result<Self> {
         let multiplicity = check_insertion(self.knots(), t, times)?;
         self.reshape(|knots, net| raise(knots.clone(), net, t, multiplicity))
+    }
+
+    /// The same curve with all these knots, ascending, inserted.
+    ///
+    /// # Errors
+    /// As [`NurbsCurve::insert_knot`], for each; also when they do not ascend.
+    pub fn refined(&self, new: &[f64]) -> Result<Self> {
+        self.reshape(|knots, net| insert_all(knots, net, new))
     }
 
     /// The same curve over its domain with `degree + 1` equal knots at both ends.
@@ -158,7 +226,7 @@ pub enum Direction {
 }
 
 impl NurbsSurface {
-    fn reshape(
+    pub(super) fn reshape(
         &self,
         direction: Direction,
         change: impl FnOnce(&KnotVector, &mut Net<DVec3>) -> Result<KnotVector>,
@@ -183,12 +251,24 @@ impl NurbsSurface {
     /// [`Error::Spline`] when `t` is not inside the domain or its multiplicity would exceed the
     /// degree.
     pub fn insert_knot(&self, direction: Direction, t: f64, times: usize) -> Result<Self> {
-        let knots = match direction {
+        let multiplicity = check_insertion(self.knots(direction), t, times)?;
+        self.reshape(direction, |knots, net| raise(knots.clone(), net, t, multiplicity))
+    }
+
+    /// The same surface with all these knots, ascending, inserted along `direction`.
+    ///
+    /// # Errors
+    /// As [`NurbsSurface::insert_knot`], for each; also when they do not ascend.
+    pub fn refined(&self, direction: Direction, new: &[f64]) -> Result<Self> {
+        self.reshape(direction, |knots, net| insert_all(knots, net, new))
+    }
+
+    /// Knots along `direction`.
+    pub fn knots(&self, direction: Direction) -> &KnotVector {
+        match direction {
             Direction::U => self.knots_u(),
             Direction::V => self.knots_v(),
-        };
-        let multiplicity = check_insertion(knots, t, times)?;
-        self.reshape(direction, |knots, net| raise(knots.clone(), net, t, multiplicity))
+        }
     }
 
     /// The same surface over its domain with `degree + 1` equal knots at all ends.
@@ -257,6 +337,20 @@ mod tests {
                 assert!(gap < 1e-13, "{gap} at ({u}, {v})");
             }
         }
+    }
+
+    #[test]
+    fn many_knots_at_once_keep_the_surface() {
+        let surface = saddle();
+        let new: Vec<f64> = (1..40).map(|i| i as f64 / 20.0).filter(|t| *t != 0.5).collect();
+        let refined = surface.refined(Direction::V, &new).unwrap();
+        assert_eq!(refined.knots(Direction::V).len(), 5 + new.len());
+        for i in 0..=400 {
+            let (u, v) = ((i % 21) as f64 / 20.0, i as f64 / 200.0);
+            let gap = refined.point(u, v).distance(surface.point(u, v));
+            assert!(gap < 1e-14 * 10.0, "{gap} at ({u}, {v})");
+        }
+        assert!(surface.refined(Direction::U, &[0.7, 0.2]).is_err());
     }
 
     #[test]

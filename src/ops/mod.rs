@@ -1,6 +1,10 @@
-//! Operations on splines: interpolation, approximation, nearest points.
+//! Operations on splines: interpolation, least squares, approximation, skinning, nearest points.
 
 pub mod approximate;
 pub mod closest;
+pub mod conditions;
 pub mod interpolate;
 pub mod invert;
+pub mod least_squares;
+pub mod parametrise;
+pub mod skin;

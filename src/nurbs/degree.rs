@@ -1,0 +1,252 @@
+//! Degree elevation and reduction, through Bézier segments (A5.9 and A5.11 of *The NURBS Book*).
+
+use super::basis::{KnotVector, MAX_DEGREE};
+use super::curve::{NurbsCurve, Point};
+use super::derivatives::binomial;
+use super::refine::{Direction, Net, insert_all, window};
+use super::removal::{remove, remove_once};
+use super::surface::NurbsSurface;
+use crate::error::{Error, Result};
+
+type Shares = Vec<Vec<(usize, f64)>>;
+
+/// Cuts the net into Bézier segments that share their end rows; returns the breaks and how often
+/// each stood.
+pub(super) fn segments<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<Vec<(f64, usize)>> {
+    let p = knots.degree();
+    let knots = window(knots, net, knots.domain())?;
+    let breaks = knots.breaks_and_multiplicities();
+    let inner = &breaks[1..breaks.len() - 1];
+    if let Some((t, m)) = inner.iter().find(|(_, m)| *m > p) {
+        let why = format!("knot {t} stands {m} times at degree {p}: the spline jumps there; split it first");
+        return Err(Error::Spline { why });
+    }
+    let new: Vec<f64> = inner.iter().flat_map(|&(t, m)| std::iter::repeat_n(t, p - m)).collect();
+    insert_all(&knots, net, &new)?;
+    Ok(breaks)
+}
+
+/// Knots of Bézier segments over the breaks.
+fn joined(degree: usize, breaks: &[(f64, usize)]) -> Result<KnotVector> {
+    let ends = [0, breaks.len() - 1];
+    let of = |i: usize| if ends.contains(&i) { degree + 1 } else { degree };
+    let flat = breaks.iter().enumerate().flat_map(|(i, &(t, _))| std::iter::repeat_n(t, of(i)));
+    KnotVector::new(degree, flat.collect())
+}
+
+/// The same change of every segment of degree `p`, for segments that share their end rows.
+fn for_each_segment(one: &Shares, p: usize, count: usize) -> Shares {
+    let mut all = vec![one[0].clone()];
+    for segment in 0..count {
+        let shifted = |row: &Vec<(usize, f64)>| row.iter().map(|&(i, s)| (i + segment * p, s)).collect();
+        all.extend(one[1..].iter().map(shifted));
+    }
+    all
+}
+
+/// A Bézier segment of degree `p` raised by `by` (eq. 5.36).
+fn raised(p: usize, by: usize) -> Shares {
+    let share = |i: usize, j: usize| binomial(p, j) * binomial(by, i - j) / binomial(p + by, i);
+    (0..=p + by).map(|i| (i.saturating_sub(by)..=p.min(i)).map(|j| (j, share(i, j))).collect()).collect()
+}
+
+/// A Bézier segment of degree `p` lowered by one, its ends kept (eq. 5.41 and 5.42).
+fn lowered(p: usize) -> Shares {
+    let alpha = |i: usize| i as f64 / p as f64;
+    let rest = |i: usize, factor: f64, row: &[(usize, f64)], over: f64| {
+        let others = row.iter().map(|&(k, s)| (k, -factor * s / over));
+        std::iter::once((i, 1.0 / over)).chain(others).collect::<Vec<_>>()
+    };
+    let half = (p - 1) / 2;
+    let mut left = vec![vec![(0, 1.0)]];
+    for i in 1..=half {
+        left.push(rest(i, alpha(i), &left[i - 1], 1.0 - alpha(i)));
+    }
+    let mut right = vec![vec![(p, 1.0)]];
+    let lowest = if p % 2 == 1 { half } else { half + 1 };
+    for i in (lowest..p - 1).rev() {
+        right.push(rest(i + 1, 1.0 - alpha(i + 1), &right[right.len() - 1], alpha(i + 1)));
+    }
+    if p % 2 == 1 && p > 1 {
+        // Both sides reach the middle one.
+        let (a, b) = (left.pop().unwrap_or_default(), right.pop().unwrap_or_default());
+        left.push(a.into_iter().chain(b).map(|(k, s)| (k, 0.5 * s)).collect());
+    }
+    left.into_iter().chain(right.into_iter().rev()).collect()
+}
+
+fn elevate<P: Point>(knots: &KnotVector, net: &mut Net<P>, by: usize) -> Result<KnotVector> {
+    let p = knots.degree();
+    if by == 0 {
+        return Ok(knots.clone());
+    }
+    if p + by > MAX_DEGREE {
+        let why = format!("degree {p} raised by {by} is above {MAX_DEGREE}");
+        return Err(Error::Spline { why });
+    }
+    let breaks = segments(knots, net)?;
+    net.combine(&for_each_segment(&raised(p, by), p, breaks.len() - 1));
+    let mut knots = joined(p + by, &breaks)?;
+    for &(t, m) in &breaks[1..breaks.len() - 1] {
+        for _ in m..p {
+            knots = remove_once(&knots, net, t)?.0;
+        }
+    }
+    Ok(knots)
+}
+
+fn reduce<P: Point>(knots: &KnotVector, net: &mut Net<P>, tolerance: f64) -> Result<(KnotVector, f64)> {
+    let p = knots.degree();
+    if p < 2 {
+        return Err(Error::Spline { why: format!("degree {p} cannot be reduced") });
+    }
+    let breaks = segments(knots, net)?;
+    let before = net.clone();
+    net.combine(&for_each_segment(&lowered(p), p, breaks.len() - 1));
+    let mut back = net.clone();
+    back.combine(&for_each_segment(&raised(p - 1, 1), p - 1, breaks.len() - 1));
+    let mut change = back.distance(&before);
+    if change > tolerance {
+        let why =
+            format!("degree {p} reduced by one moves the shape by up to {change:e}, beyond {tolerance:e}");
+        return Err(Error::Numerics { why });
+    }
+    let mut knots = joined(p - 1, &breaks)?;
+    for &(t, m) in &breaks[1..breaks.len() - 1] {
+        let (fewer, more) = remove(&knots, net, t, p - m.max(1), tolerance - change)?;
+        (knots, change) = (fewer, change + more);
+    }
+    Ok((knots, change))
+}
+
+impl<P: Point> NurbsCurve<P> {
+    /// The same curve, clamped, with its degree raised by so much; continuity at knots is kept.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] beyond [`MAX_DEGREE`] and for curves that jump.
+    pub fn elevated(&self, by: usize) -> Result<Self> {
+        self.reshape(|knots, net| elevate(knots, net, by))
+    }
+
+    /// A curve of a degree lower by one, with a bound of its distance (at equal parameters), no
+    /// more than `tolerance`, in mm. Inner knots stay where their removal would go beyond.
+    ///
+    /// # Errors
+    /// [`Error::Numerics`], with the bound, when the tolerance cannot be met; [`Error::Spline`] for
+    /// degree 1 and curves that jump.
+    pub fn reduced(&self, tolerance: f64) -> Result<(Self, f64)> {
+        let mut change = 0.0;
+        let curve = self.reshape(|knots, net| {
+            let (knots, moved) = reduce(knots, net, tolerance)?;
+            change = moved;
+            Ok(knots)
+        })?;
+        Ok((curve, change))
+    }
+}
+
+impl NurbsSurface {
+    /// The same surface with its degree along `direction` raised, as [`NurbsCurve::elevated`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn elevated(&self, direction: Direction, by: usize) -> Result<Self> {
+        self.reshape(direction, |knots, net| elevate(knots, net, by))
+    }
+
+    /// A surface of a degree lower by one along `direction`, as [`NurbsCurve::reduced`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn reduced(&self, direction: Direction, tolerance: f64) -> Result<(Self, f64)> {
+        let mut change = 0.0;
+        let surface = self.reshape(direction, |knots, net| {
+            let (knots, moved) = reduce(knots, net, tolerance)?;
+            change = moved;
+            Ok(knots)
+        })?;
+        Ok((surface, change))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn wave(degree: usize, rational: bool) -> NurbsCurve<DVec3> {
+        let mut multiplicities = [1; 5];
+        (multiplicities[0], multiplicities[4]) = (degree + 1, degree + 1);
+        multiplicities[2] = 2.min(degree);
+        let knots =
+            KnotVector::with_multiplicities(degree, &[0.0, 0.2, 0.5, 0.6, 1.0], &multiplicities).unwrap();
+        let n = knots.len();
+        let poles = (0..n).map(|i| DVec3::new(i as f64, (i as f64).sin() * 2.0, (i % 3) as f64)).collect();
+        let weights = rational.then(|| (0..n).map(|i| 1.0 + 0.5 * (i as f64).cos()).collect());
+        NurbsCurve::new(knots, poles, weights).unwrap()
+    }
+
+    fn gap(a: &NurbsCurve<DVec3>, b: &NurbsCurve<DVec3>) -> f64 {
+        let at = |i: usize| i as f64 / 997.0;
+        (0..=997).map(|i| a.point(at(i)).distance(b.point(at(i)))).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn elevation_keeps_the_curve_and_its_continuity() {
+        for degree in 1..=7 {
+            for by in 1..=2 {
+                for rational in [false, true] {
+                    let curve = wave(degree, rational);
+                    let high = curve.elevated(by).unwrap();
+                    let expected: Vec<usize> =
+                        curve.knots().breaks_and_multiplicities().iter().map(|(_, m)| m + by).collect();
+                    let is: Vec<usize> =
+                        high.knots().breaks_and_multiplicities().iter().map(|(_, m)| *m).collect();
+                    assert_eq!(is, expected);
+                    // Size 10; the condition of removal grows by about two with each degree.
+                    let bound = 1e-14 * 10.0 * 2f64.powi(degree as i32 - 1);
+                    assert!(gap(&curve, &high) < bound, "degree {degree} + {by}: {}", gap(&curve, &high));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reduction_undoes_elevation() {
+        for degree in 1..=5 {
+            for rational in [false, true] {
+                let curve = wave(degree, rational);
+                let (low, bound) = curve.elevated(1).unwrap().reduced(1e-10).unwrap();
+                assert_eq!(low.knots(), curve.knots(), "degree {degree}");
+                assert!(gap(&curve, &low) < 1e-11 && bound < 1e-10, "degree {degree}: {}", gap(&curve, &low));
+            }
+        }
+    }
+
+    #[test]
+    fn the_error_of_a_reduction_is_bounded() {
+        for degree in 2..=5 {
+            let curve = wave(degree, degree % 2 == 0);
+            let (low, bound) = curve.reduced(100.0).unwrap();
+            let moved = gap(&curve, &low);
+            assert!(moved <= bound && moved > 1e-6, "degree {degree}: moved {moved}, bound {bound}");
+            let refused = curve.reduced(1e-9).unwrap_err();
+            assert!(matches!(refused, Error::Numerics { .. }), "{refused}");
+        }
+    }
+
+    #[test]
+    fn a_surface_is_elevated_along_either_direction() {
+        let knots = [3, 2].map(|p| KnotVector::clamped(p, &[0.0, 0.4, 1.0]).unwrap());
+        let n = knots[0].len() * knots[1].len();
+        let poles = (0..n).map(|i| DVec3::new((i / 4) as f64, (i % 4) as f64, (i as f64).sin())).collect();
+        let [ku, kv] = knots;
+        let s = NurbsSurface::new(ku, kv, poles, None).unwrap();
+        let high = s.elevated(Direction::U, 1).unwrap().elevated(Direction::V, 2).unwrap();
+        assert_eq!((high.knots_u().degree(), high.knots_v().degree()), (4, 4));
+        for i in 0..100 {
+            let (u, v) = (i as f64 / 99.0, (i * 37 % 100) as f64 / 99.0);
+            assert!(high.point(u, v).distance(s.point(u, v)) < 2e-13, "({u}, {v})");
+        }
+    }
+}
