@@ -14,8 +14,6 @@ pub trait Space: Point + 'static {
     /// What stands on the plane of a conic or of an offset: nothing in the plane, a direction in
     /// space.
     type Normal: Copy + PartialEq + std::fmt::Debug + Send + Sync;
-    /// Number of coordinates.
-    const DIMENSION: usize;
     /// Directions that the text gives for a conic's frame.
     const FRAME_DIRECTIONS: usize;
     /// Coordinates that the text gives for an offset's normal.
@@ -74,7 +72,6 @@ pub fn unit<P: Point>(v: P) -> Option<P> {
 
 impl Space for DVec2 {
     type Normal = ();
-    const DIMENSION: usize = 2;
     const FRAME_DIRECTIONS: usize = 2;
     const NORMAL_COORDINATES: usize = 0;
 
@@ -105,7 +102,6 @@ impl Space for DVec2 {
 
 impl Space for DVec3 {
     type Normal = DVec3;
-    const DIMENSION: usize = 3;
     const FRAME_DIRECTIONS: usize = 3;
     const NORMAL_COORDINATES: usize = 3;
 
