@@ -9,20 +9,22 @@ EXAMPLE := examples/compressor_blade
 DEMO := build/demo
 TEST_PYTHON := build/venv/bin/python
 RUFF := build/venv/bin/ruff
-PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches
+PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches cmake tools
 
-export PYTHON
+export PYTHON DESTDIR
 
-.PHONY: help setup setup-run build test test-rust test-python awkward-files demo lint bench dist install clean
+.PHONY: help setup setup-run build test test-rust test-python awkward-files demo docs lint bench dist install uninstall clean
 
 help:
 	@echo "make demo     morph a compressor blade; leaves STEP, report and pictures in $(DEMO)"
 	@echo "make test     run every test"
 	@echo "make build    build the library (target/release)"
 	@echo "make install  install library and command below PREFIX (now $(PREFIX))"
+	@echo "make uninstall  remove what make install put below PREFIX"
 	@echo "make lint     check format and lints"
+	@echo "make docs     draw the pictures of the documentation and build its pages, with a link check"
 	@echo "make bench    measure times and memory"
-	@echo "make dist     pack the sources into build/"
+	@echo "make dist     pack the sources, and the add-on for FreeCAD, into build/"
 	@echo "make setup    install what the tests need"
 
 setup:
@@ -57,6 +59,15 @@ demo: build
 	@echo "  report.json         all figures"
 	@echo "  report/report.html  the page, and its pictures beside it"
 
+docs: setup build
+	@test -x build/docs-venv/bin/mkdocs || { $(PYTHON) -m venv build/docs-venv && \
+	    build/docs-venv/bin/pip install --quiet --disable-pip-version-check -r docs/requirements.txt; }
+	cd tests/python && ../../$(TEST_PYTHON) -m unittest \
+	    test_window.Window.test_a_users_walk_with_the_blade test_result_window
+	cd build/screenshots && cp $(notdir $(shell grep -oh 'pictures/[a-z0-9-]*\.png' docs/*.md | sort -u)) ../../docs/pictures/
+	build/docs-venv/bin/mkdocs build --strict --quiet
+	@echo "The pages are in $(abspath build/docs)/index.html"
+
 lint: setup
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets --quiet -- -D warnings
@@ -66,18 +77,17 @@ lint: setup
 bench: build
 	$(PYTHON) benches/morph_command.py
 
-dist:
+dist: build
 	@mkdir -p build
 	git archive --format=tar --prefix=bladesmith-$(VERSION)/ HEAD | gzip -9n > build/bladesmith-$(VERSION).tar.gz
 	@echo "build/bladesmith-$(VERSION).tar.gz"
+	@$(PYTHON) cmake/addon.py target/release/libbladesmith.so build
 
 install: build
 	cmake/install.sh $(PREFIX)
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/bladesmith
-	cd freecad_workbench && find freecad -type f ! -name '*.pyc' \
-	    -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/bladesmith/{} \;
-	install -m 755 freecad_workbench/bladesmith $(DESTDIR)$(PREFIX)/share/bladesmith/bladesmith
-	ln -sf ../share/bladesmith/bladesmith $(DESTDIR)$(PREFIX)/bin/bladesmith
+
+uninstall:
+	cmake/uninstall.sh $(PREFIX)
 
 clean:
 	rm -rf build target

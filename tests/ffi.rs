@@ -1,8 +1,8 @@
-//! The C interface as C programs meet it: linked against the built library, with bad arguments and
-//! with a real morph, plain, under the address sanitizer and under valgrind.
+//! The C interface called from within: its symbols and so-name, texts, points, and damaged parts.
+//! C and C++ programs are in `package.rs`.
 
+use bladesmith::brep;
 use bladesmith::ffi::{Part, field, library, part};
-use bladesmith::{brep, fe, morph};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -12,24 +12,23 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr::null_mut;
 
-#[path = "consumer/programs.rs"]
-mod programs;
-
-use programs::{Linkage, build, data, library_folder, lossy, root, sanitized, scratch, succeed, valgrind};
-
-/// Runs `morph_part` on the bar; the report and the text of the new part.
-fn morph_bar(command: &mut Command, folder: &Path) -> (Value, String) {
-    let (cold, report) = (folder.join("cold.brep"), folder.join("report.json"));
-    succeed(command.arg(data("bar.brep")).arg(data("bar.frd.gz")).arg(&cold).arg(&report));
-    let report = fs::read_to_string(report).expect("the program wrote the report");
-    (
-        serde_json::from_str(&report).expect("the report is JSON"),
-        fs::read_to_string(cold).expect("the program wrote the part"),
-    )
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn bar_and_field(command: &mut Command) -> &mut Command {
-    command.arg(data("bar.brep")).arg(data("bar.frd.gz"))
+/// A file of the test data.
+fn data(name: &str) -> PathBuf {
+    root().join("tests/consumer/data").join(name)
+}
+
+/// What a tool says of the shared library, which cargo puts beside the running test.
+fn said_of_the_library(tool: &str, options: &[&str]) -> String {
+    let test = std::env::current_exe().expect("a test knows its path");
+    let library = test.with_file_name("libbladesmith.so");
+    let output = Command::new(tool).args(options).arg(library).output();
+    let output = output.unwrap_or_else(|error| panic!("{tool} is needed for this test: {error}"));
+    assert!(output.status.success(), "{tool}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
 #[test]
@@ -42,10 +41,7 @@ fn the_shared_library_exports_the_functions_of_the_header() {
         .filter(|name| name.starts_with("bladesmith_"))
         .map(str::to_owned)
         .collect();
-    let nm = succeed(
-        Command::new("nm").args(["-D", "--defined-only"]).arg(library_folder().join("libbladesmith.so")),
-    );
-    let exported: BTreeSet<String> = lossy(&nm.stdout)
+    let exported: BTreeSet<String> = said_of_the_library("nm", &["-D", "--defined-only"])
         .lines()
         .filter_map(|line| line.split_whitespace().last())
         .filter(|name| name.starts_with("bladesmith_"))
@@ -56,133 +52,10 @@ fn the_shared_library_exports_the_functions_of_the_header() {
 }
 
 #[test]
-fn bad_arguments_give_their_documented_status_and_message() {
-    let folder = scratch("errors");
-    succeed(bar_and_field(&mut Command::new(build("abi_errors", Linkage::Shared, &folder))));
-}
-
-#[test]
-fn bad_arguments_do_no_harm_under_the_address_sanitizer() {
-    let folder = scratch("errors-asan");
-    if let Some(mut command) = sanitized("abi_errors", &folder) {
-        succeed(bar_and_field(&mut command));
-    }
-}
-
-#[test]
-fn bad_arguments_do_no_harm_under_valgrind() {
-    let folder = scratch("errors-valgrind");
-    if let Some(mut command) = valgrind(&build("abi_errors", Linkage::Shared, &folder)) {
-        succeed(bar_and_field(&mut command));
-    }
-}
-
-#[test]
-fn a_c_program_morphs_a_part_and_cancels() {
-    let folder = scratch("morph");
-    let (report, cold) = morph_bar(&mut Command::new(build("morph_part", Linkage::Shared, &folder)), &folder);
-    assert_eq!(report["solid"]["closed"], true, "{report}");
-    assert_eq!(report["input"]["factor"], -1.0);
-    assert_eq!(report["faces"].as_array().map(Vec::len), Some(7));
-    let deviation = report["deviation_mm"]["max"].as_f64().expect("a largest deviation");
-    assert!(deviation > 0.0 && deviation < 1e-3, "largest deviation {deviation} mm");
-    let faces = brep::Topology::new(&brep::parse("cold.brep", &cold).expect("the part reads back"));
-    assert_eq!(faces.expect("it hangs together").faces.len(), 7);
-}
-
-#[test]
-fn c_and_rust_give_the_same_part_whatever_the_number_of_threads() {
-    let folder = scratch("same");
-    let (_, from_c) = morph_bar(&mut Command::new(build("morph_part", Linkage::Static, &folder)), &folder);
-    let text = fs::read_to_string(data("bar.brep")).expect("it is committed");
-    let part = brep::parse("bar.brep", &text).expect("the bar is sound");
-    let field = fe::read(&data("bar.frd.gz"), &fe::ReadOptions::default()).expect("so is its field");
-    let options = morph::Options { factor: -1.0, ..morph::Options::default() };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread starts");
-    let morphed =
-        pool.install(|| morph::morph(&part, &field, &options, &|_, _| true)).expect("the bar morphs");
-    assert!(from_c == morphed.brep.write(), "the C program's part differs from that of the crate");
-}
-
-#[test]
-fn a_field_from_arrays_grows_the_part_by_its_third_power() {
-    let folder = scratch("scale");
-    let mut command = Command::new(build("scale_part", Linkage::Shared, &folder));
-    let output = succeed(bar_and_field(&mut command));
-    let report: Value = serde_json::from_str(&lossy(&output.stdout)).expect("it prints the report");
-    let volume = |when: &str| report["solid"]["volume_mm3"][when].as_f64().expect("a volume");
-    let ratio = volume("after") / volume("before");
-    assert!((ratio / 1.001_f64.powi(3) - 1.0).abs() < 1e-7, "volume grows by {ratio}");
-    assert_eq!(report["input"]["field"], "growth");
-}
-
-#[test]
-fn a_morph_is_clean_under_the_address_sanitizer() {
-    let folder = scratch("morph-asan");
-    if let Some(mut command) = sanitized("morph_part", &folder) {
-        morph_bar(&mut command, &folder);
-    }
-}
-
-#[test]
-fn a_morph_is_clean_under_valgrind() {
-    let folder = scratch("morph-valgrind");
-    if let Some(mut command) = valgrind(&build("morph_part", Linkage::Shared, &folder)) {
-        morph_bar(&mut command, &folder);
-    }
-}
-
-#[test]
 fn the_so_name_carries_the_abi_number() {
-    let readelf = succeed(Command::new("readelf").arg("-d").arg(library_folder().join("libbladesmith.so")));
     let expected = format!("[libbladesmith.so.{}]", library::BLADESMITH_ABI_VERSION);
-    let said = lossy(&readelf.stdout);
+    let said = said_of_the_library("readelf", &["-d"]);
     assert!(said.lines().any(|line| line.contains("SONAME") && line.contains(&expected)), "{said}");
-}
-
-/// Installs the library of this test below `folder`.
-fn install(folder: &Path) -> PathBuf {
-    let prefix = folder.join("prefix");
-    let _ = fs::remove_dir_all(&prefix);
-    succeed(Command::new(root().join("cmake/install.sh")).arg(&prefix).arg(library_folder()));
-    prefix
-}
-
-#[test]
-fn cmake_finds_the_installed_library_shared_and_static() {
-    if Command::new("cmake").arg("--version").output().is_err() {
-        println!("skipped: cmake is not installed");
-        return;
-    }
-    let folder = scratch("cmake");
-    let (prefix, build) = (install(&folder), folder.join("build"));
-    let _ = fs::remove_dir_all(&build);
-    let mut configure = Command::new("cmake");
-    configure.arg("-S").arg(root().join("tests/consumer/cmake")).arg("-B").arg(&build);
-    succeed(configure.arg(format!("-DCMAKE_PREFIX_PATH={}", prefix.display())));
-    succeed(Command::new("cmake").arg("--build").arg(&build));
-    for program in ["abi_errors_shared", "abi_errors_static"] {
-        succeed(bar_and_field(&mut Command::new(build.join(program))));
-    }
-}
-
-#[test]
-fn pkg_config_finds_the_installed_library() {
-    let folder = scratch("pkg-config");
-    let prefix = install(&folder);
-    let mut ask = Command::new("pkg-config");
-    ask.env("PKG_CONFIG_PATH", prefix.join("lib/pkgconfig")).args(["--cflags", "--libs", "bladesmith"]);
-    if ask.output().is_err() {
-        println!("skipped: pkg-config is not installed");
-        return;
-    }
-    let flags = lossy(&succeed(&mut ask).stdout);
-    let program = folder.join("abi_errors");
-    let mut gcc = Command::new("gcc");
-    gcc.arg(root().join("tests/consumer/c/abi_errors.c")).arg("-o").arg(&program);
-    succeed(gcc.args(flags.split_whitespace()));
-    let mut command = Command::new(program);
-    succeed(bar_and_field(command.env("LD_LIBRARY_PATH", prefix.join("lib"))));
 }
 
 /// The text that a call gives, asked for first and then fetched.

@@ -8,7 +8,7 @@ use std::process::Command;
 use bladesmith::ffi::MorphOptions;
 
 /// Sources of the header in the order in which it presents them.
-const SOURCES: [&str; 7] = ["status", "library", "progress", "field", "part", "options", "morph"];
+const SOURCES: [&str; 8] = ["status", "library", "progress", "field", "part", "options", "check", "morph"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -61,15 +61,32 @@ fn the_header_is_that_of_the_sources() {
     );
 }
 
-#[test]
-fn c99_and_cpp17_take_it_alone_and_twice() {
-    let twice = "#include <bladesmith/bladesmith.h>\n#include <bladesmith/bladesmith.h>\nint unused;\n";
-    compile("gcc", &["-std=c99"], "alone.c", twice).expect("C99 takes the header");
-    compile("g++", &["-std=c++17"], "alone.cpp", twice).expect("C++17 takes the header");
+fn installed(compiler: &str) -> bool {
+    Command::new(compiler).arg("--version").output().is_ok()
 }
 
 #[test]
-fn the_options_have_one_layout_in_c_and_rust() {
+fn c99_and_cpp17_take_the_headers_alone_and_twice() {
+    for (header, extension, standard, compilers) in [
+        ("bladesmith.h", "c", "-std=c99", ["gcc", "clang"]),
+        ("bladesmith.h", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("bladesmith.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("bladesmith.hpp", "cpp", "-std=c++20", ["g++", "clang++"]),
+    ] {
+        let twice = format!("#include <bladesmith/{header}>\n").repeat(2) + "int unused;\n";
+        for (number, compiler) in compilers.into_iter().enumerate() {
+            if number > 0 && !installed(compiler) {
+                println!("skipped: {compiler} is not installed");
+                continue;
+            }
+            compile(compiler, &[standard], &format!("alone_{header}_{compiler}.{extension}"), &twice)
+                .unwrap_or_else(|why| panic!("{compiler} {standard} does not take {header}:\n{why}"));
+        }
+    }
+}
+
+#[test]
+fn the_options_have_one_layout_in_c_and_rust_and_none_is_left_out_in_cpp() {
     macro_rules! checks {
         ($($field:ident),* $(,)?) => {
             [$((stringify!($field), std::mem::offset_of!(MorphOptions, $field))),*]
@@ -94,8 +111,11 @@ fn the_options_have_one_layout_in_c_and_rust() {
         face_names_count,
         solid_name,
     );
+    let cpp = fs::read_to_string(root().join("include/bladesmith/bladesmith.hpp")).expect("it is committed");
     let mut source = String::from("#include <bladesmith/bladesmith.h>\n");
     for (field, offset) in fields {
+        let passed = field == "size" || cpp.contains(&format!(" c.{field} = "));
+        assert!(passed, "bladesmith.hpp does not pass {field} on");
         source += &format!(
             "_Static_assert(offsetof(bladesmith_morph_options, {field}) == {offset}, \"{field}\");\n"
         );
@@ -120,9 +140,18 @@ fn documented_functions(header: &str) -> Vec<(String, String)> {
 }
 
 #[test]
+fn the_cpp_header_covers_every_function() {
+    let cpp = fs::read_to_string(root().join("include/bladesmith/bladesmith.hpp")).expect("it is committed");
+    for (_, declaration) in documented_functions(&generated()) {
+        let name = declaration.split('(').next().unwrap_or_default().rsplit([' ', '*']).next();
+        assert!(name.is_some_and(|name| cpp.contains(name)), "bladesmith.hpp does not use {name:?}");
+    }
+}
+
+#[test]
 fn every_function_states_errors_and_where_it_applies_ownership_units_and_shapes() {
     let functions = documented_functions(&generated());
-    assert_eq!(functions.len(), 18, "functions with a comment: {functions:#?}");
+    assert_eq!(functions.len(), 19, "functions with a comment: {functions:#?}");
     for (comment, declaration) in functions {
         let pointers = declaration.contains('*');
         let arrays = declaration.contains("double *");

@@ -23,18 +23,21 @@ const ROOMS: [(&str, usize); 11] = [
 
 /// Packages of the add-on with their rank; those of one rank stand beside each other and may be
 /// used by one another.
-const PACKAGES: [(&str, usize); 11] = [
+const PACKAGES: [(&str, usize); 14] = [
+    ("log", 0),
     ("native", 0),
     ("model", 1),
     ("occ", 2),
-    ("features", 3),
-    ("viewproviders", 4),
-    ("report", 5),
-    ("taskpanels", 6),
-    ("commands", 6),
-    ("cli", 6),
-    ("__main__", 7),
-    ("init_gui", 7),
+    ("operations", 3),
+    ("colours", 3),
+    ("features", 4),
+    ("viewproviders", 5),
+    ("report", 6),
+    ("taskpanels", 7),
+    ("commands", 7),
+    ("cli", 7),
+    ("__main__", 8),
+    ("init_gui", 8),
 ];
 
 const MOST_LINES: usize = 500;
@@ -226,7 +229,7 @@ fn package_used(dots: usize, name: &str, depth: usize) -> Option<String> {
 /// Modules that only some packages may import: how they start, and which packages those are.
 const RESERVED: [(&[&str], &[&str]); 2] = [
     (&["ctypes"], &["native"]),
-    (&["FreeCADGui", "PySide"], &["viewproviders", "taskpanels", "commands", "init_gui"]),
+    (&["FreeCADGui", "PySide", "pivy"], &["viewproviders", "taskpanels", "commands", "init_gui"]),
 ];
 
 /// What a Python source of `package`, `depth` folders below the root, imports against the order.

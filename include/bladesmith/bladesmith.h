@@ -230,8 +230,8 @@ const char *bladesmith_version(void);
 const char *bladesmith_last_error(void);
 
 /**
- * Reads a displacement field from an ASCII CalculiX result file (`.frd`) or from CSV with the
- * columns id,x,y,z,dx,dy,dz; either may be gzipped.
+ * Reads a displacement field from a CalculiX result file (`.frd`, text or binary) or from CSV with
+ * the columns id,x,y,z,dx,dy,dz; either may be gzipped.
  *
  * path: file name, NUL-terminated.
  * mesh_path: CalculiX deck (`.inp`) of the same nodes, for their full-precision coordinates
@@ -269,8 +269,11 @@ int32_t bladesmith_field_from_arrays(const char *name,
                                      bladesmith_field **out);
 
 /**
- * What is in a field, as JSON: nodes, steps, bounding box, largest displacement and where,
- * elements, and what the file holds besides.
+ * What is in a field, as JSON: {"name", "format", "compressed", "mesh", "blocks": [{"name", "rows"}],
+ * "steps": [{"number", "time", "rows", ...}], "step", "nodes", "nodes_with_result", "surface_nodes",
+ * "elements": [{"kind", "count"}], "bounds": [[x, y, z], [x, y, z]], "unit_guess",
+ * "largest_displacement": {"value", "node", "at": [x, y, z]}, "warnings": [...]}. What a file does
+ * not tell is null.
  *
  * Units: those of the field.
  * Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it.
@@ -385,6 +388,30 @@ void bladesmith_part_free(bladesmith_part *part);
 void bladesmith_morph_options_init(bladesmith_morph_options *options, size_t size);
 
 /**
+ * How a field lies on a part, as JSON, for a look before bladesmith_morph(): {"nodes",
+ * "nodes_on_faces", "unmatched_nodes", "foot_mm": {"mean", "max"}, "match_tolerance_mm",
+ * "faces_without_nodes": [...], "warnings": [...]}. It does the first stages of a morph, about a
+ * third of the work, and fails where that would refuse the input.
+ *
+ * options: NULL for the defaults.
+ * progress, user: called on this thread with user; progress may be NULL.
+ * Units: mm.
+ * Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it. Each call does
+ * the work: a buffer of 64 kB is nearly always enough for the first.
+ * Owner: the caller gives the buffer.
+ * Errors: those of bladesmith_morph(); BLADESMITH_STATUS_BUFFER_TOO_SMALL, with `*length` set and
+ * the buffer left alone.
+ */
+int32_t bladesmith_check(const bladesmith_part *part,
+                         const bladesmith_field *field,
+                         const bladesmith_morph_options *options,
+                         bladesmith_progress progress,
+                         void *user,
+                         char *json,
+                         size_t capacity,
+                         size_t *length);
+
+/**
  * Morphs one solid of a part by a field: x_out = x_in + factor * u(x_in) for every face, edge and
  * vertex, with the same topology and the same order of faces.
  *
@@ -416,8 +443,9 @@ int32_t bladesmith_morph(const bladesmith_part *part,
 int32_t bladesmith_morphed_part(const bladesmith_morphed *morphed, bladesmith_part **out);
 
 /**
- * The report of a morph as JSON: deviations at the nodes by face, gaps and angles at every edge,
- * volume, area and tolerances before and after, warnings, times.
+ * The report of a morph as JSON: {"deviation_mm": {"mean", "max"}, "faces": [...], "edges": [...],
+ * "solid": {...}, "warnings": [...], "seconds": {...}, ...}: deviations at the nodes by face, gaps
+ * and angles at every edge, volume, area and tolerances before and after, warnings, times.
  *
  * Units: mm, mm^2, mm^3, degrees, seconds; each name says so.
  * Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it.

@@ -16,8 +16,8 @@ pub struct Field {
     info: Json,
 }
 
-/// Reads a displacement field from an ASCII CalculiX result file (`.frd`) or from CSV with the
-/// columns id,x,y,z,dx,dy,dz; either may be gzipped.
+/// Reads a displacement field from a CalculiX result file (`.frd`, text or binary) or from CSV with
+/// the columns id,x,y,z,dx,dy,dz; either may be gzipped.
 ///
 /// path: file name, NUL-terminated.
 /// mesh_path: CalculiX deck (`.inp`) of the same nodes, for their full-precision coordinates
@@ -87,8 +87,11 @@ pub unsafe extern "C" fn bladesmith_field_from_arrays(
     })
 }
 
-/// What is in a field, as JSON: nodes, steps, bounding box, largest displacement and where,
-/// elements, and what the file holds besides.
+/// What is in a field, as JSON: {"name", "format", "compressed", "mesh", "blocks": [{"name", "rows"}],
+/// "steps": [{"number", "time", "rows", ...}], "step", "nodes", "nodes_with_result", "surface_nodes",
+/// "elements": [{"kind", "count"}], "bounds": [[x, y, z], [x, y, z]], "unit_guess",
+/// "largest_displacement": {"value", "node", "at": [x, y, z]}, "warnings": [...]}. What a file does
+/// not tell is null.
 ///
 /// Units: those of the field.
 /// Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it.

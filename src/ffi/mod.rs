@@ -12,6 +12,7 @@
 // The header states, once for all functions, what a caller must hold.
 #![allow(clippy::missing_safety_doc)]
 
+pub mod check;
 pub mod field;
 mod guard;
 mod handle;

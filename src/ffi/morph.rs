@@ -83,8 +83,9 @@ pub unsafe extern "C" fn bladesmith_morphed_part(morphed: *const Morphed, out: *
     })
 }
 
-/// The report of a morph as JSON: deviations at the nodes by face, gaps and angles at every edge,
-/// volume, area and tolerances before and after, warnings, times.
+/// The report of a morph as JSON: {"deviation_mm": {"mean", "max"}, "faces": [...], "edges": [...],
+/// "solid": {...}, "warnings": [...], "seconds": {...}, ...}: deviations at the nodes by face, gaps
+/// and angles at every edge, volume, area and tolerances before and after, warnings, times.
 ///
 /// Units: mm, mm^2, mm^3, degrees, seconds; each name says so.
 /// Text: `*length` is set to the bytes without the NUL; capacity 0 only asks for it.
@@ -173,7 +174,7 @@ pub unsafe extern "C" fn bladesmith_morphed_free(morphed: *mut Morphed) {
 }
 
 /// Runs `work` on so many threads; 0 takes the pool that uses all processors.
-fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+pub(super) fn in_pool<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     if threads == 0 {
         return work();
     }

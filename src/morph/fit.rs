@@ -4,17 +4,19 @@ use super::affine::AffineField;
 use super::data::PatchData;
 use super::hot::Hot;
 use super::links::{self, Context, JointLinks, Tie};
-use super::options::Progress;
+use super::progress::{Progress, Shared, tell};
 use super::refine::{Limit, Marks};
 use super::space::Space;
 use super::surface_fit::{self, Cells, SHORTEST, SHORTEST_AT_EDGE, SINGULAR_MM};
 use super::system::{self, Block, PRESCRIBED};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Rounds of the coupled solve as a rule, and where something is still far off.
-const ROUNDS: [usize; 2] = [2, 4];
+const ROUNDS: [usize; 2] = [3, 4];
+/// Part of the work that goes into each patch on its own.
+const ALONE: f64 = 0.4;
 /// What is far off, as a fraction of the tolerance asked.
 const FAR: f64 = 0.8;
 /// The weight that a datum may come to; links between faces weigh far more.
@@ -62,28 +64,18 @@ pub struct Problem<'a> {
 /// Fits the displacement.
 ///
 /// # Errors
-/// [`Error::Numerics`] where the equations cannot be solved, [`Error::Cancelled`].
+/// [`crate::Error::Numerics`] where the equations cannot be solved, [`crate::Error::Cancelled`].
 pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
-    let hot = problem.hot;
-    let mut spaces: Vec<Space> = hot
-        .patches
-        .par_iter()
-        .enumerate()
-        .map(|(p, patch)| match problem.prescribed[p] {
-            Some(_) => Ok(Space { ku: patch.hot.knots_u().clone(), kv: patch.hot.knots_v().clone() }),
-            None => {
-                let start = patch.space.with_kinks(&problem.kinks[p])?;
-                surface_fit::fit_alone(start, &patch.hot, &problem.data[p], &limit(problem, p))
-            }
-        })
-        .collect::<Result<_>>()?;
+    let mut spaces = spaces_of_each(problem, &|stage, s| progress(stage, ALONE * s))?;
     let mut data = problem.data.to_vec();
     let mut coefficients = Vec::new();
     for round in 0..ROUNDS[1] {
-        if !progress("fitting all faces together", round as f64 / ROUNDS[1] as f64) {
-            return Err(Error::Cancelled);
-        }
-        let coupled = Coupled::solve(problem, &data, &spaces)?;
+        let round_done = |part: f64| {
+            let done = (round as f64 + part) / ROUNDS[1] as f64;
+            tell(progress, "fitting all faces together", ALONE + (1.0 - ALONE) * done)
+        };
+        round_done(0.0)?;
+        let coupled = Coupled::solve(problem, &data, &spaces, &round_done)?;
         let more = round + 1 < ROUNDS[0]
             || (round + 1 < ROUNDS[1] && coupled.worst_mm() > FAR * problem.tolerance_mm);
         let finer = if more { coupled.refine(problem, &spaces)? } else { None };
@@ -97,6 +89,25 @@ pub fn fit(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Fit> {
         }
     }
     Ok(Fit { spaces, coefficients })
+}
+
+/// The space that each patch needs on its own.
+fn spaces_of_each(problem: &Problem<'_>, progress: Progress<'_>) -> Result<Vec<Space>> {
+    let patches = &problem.hot.patches;
+    let stage = Shared::new(progress, "fitting each face", patches.len());
+    let space = |p: usize| {
+        let patch = &patches[p];
+        let space = match problem.prescribed[p] {
+            Some(_) => Space { ku: patch.hot.knots_u().clone(), kv: patch.hot.knots_v().clone() },
+            None => {
+                let start = patch.space.with_kinks(&problem.kinks[p])?;
+                surface_fit::fit_alone(start, &patch.hot, &problem.data[p], &limit(problem, p), &stage)?
+            }
+        };
+        stage.piece_done()?;
+        Ok(space)
+    };
+    (0..patches.len()).into_par_iter().map(space).collect()
 }
 
 /// How far a patch may be refined.
@@ -114,7 +125,13 @@ struct Coupled {
 }
 
 impl Coupled {
-    fn solve(problem: &Problem<'_>, data: &[PatchData], spaces: &[Space]) -> Result<Self> {
+    /// Sets up the equations and solves them; `part_done` hears fractions in between.
+    fn solve(
+        problem: &Problem<'_>,
+        data: &[PatchData],
+        spaces: &[Space],
+        part_done: &dyn Fn(f64) -> Result<()>,
+    ) -> Result<Self> {
         let hot = problem.hot;
         let (unknowns, count) = number(hot, spaces, problem.prescribed);
         let (blocks, cells): (Vec<Block>, Vec<Cells>) = spaces
@@ -139,7 +156,9 @@ impl Coupled {
             })
             .collect();
         let all: Vec<_> = links.iter().flat_map(|l| l.position.iter().chain(&l.tangent)).cloned().collect();
-        let coefficients = system::solve(&blocks, &all, count)?;
+        part_done(0.3)?;
+        let coefficients = system::solve(&blocks, &all, count, &|| part_done(0.5))?;
+        part_done(0.8)?;
         let missed = |p: usize| surface_fit::residuals(&spaces[p], &data[p], &cells[p], &coefficients[p]);
         let residuals = (0..spaces.len()).into_par_iter().map(missed).collect();
         Ok(Self { coefficients, blocks, cells, residuals, links })

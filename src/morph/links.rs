@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 /// in gap by more is lost many times over at the nodes.
 const WEIGHT: f64 = 20.0;
 /// Weight of a link of derivatives, whose jump counts over one node spacing.
-const TANGENT_WEIGHT: f64 = 10.0;
+const TANGENT_WEIGHT: f64 = 5.0;
 /// Samples in each piece of edge that both patches see as one polynomial.
 const SAMPLES: usize = 4;
 /// Where a patch's area element falls below this fraction of its largest along the joint (a

@@ -8,6 +8,7 @@
 
 pub mod affine;
 pub mod associate;
+pub mod check;
 pub mod coverage;
 pub mod data;
 pub mod fit;
@@ -20,6 +21,7 @@ pub mod nodes;
 pub mod options;
 pub mod pieces;
 pub mod planar;
+pub mod progress;
 pub mod rebuild;
 pub mod refine;
 pub mod report;
@@ -32,7 +34,9 @@ pub mod surface_fit;
 pub mod system;
 pub mod trim;
 
-pub use options::{Options, Progress};
+pub use check::check;
+pub use options::Options;
+pub use progress::Progress;
 pub use report::Report;
 pub use run::morph;
 

@@ -1,9 +1,6 @@
-//! What a user can choose, and how a caller follows and stops the work.
+//! What a user can choose.
 
 use crate::error::{Error, Result};
-
-/// Called with the current stage and the overall fraction done; returning `false` cancels.
-pub type Progress<'a> = &'a (dyn Fn(&str, f64) -> bool + Sync);
 
 /// Settings of a morph. Lengths in mm.
 #[derive(Debug, Clone, PartialEq)]

@@ -108,6 +108,8 @@ pub fn new_edges(hot: &Hot, surfaces: &[NurbsSurface]) -> Result<Vec<NewEdge>> {
 /// Writes new surfaces and edges into a copy of the B-rep.
 pub fn rebuild(brep: &Brep, hot: &Hot, surfaces: &[NurbsSurface], edges: &[NewEdge]) -> Brep {
     let mut out = brep.clone();
+    // Open CASCADE sets it when it has judged a shape, and clears it when it draws one.
+    out.shapes.iter_mut().for_each(|shape| shape.flags.checked = false);
     store_planar_pcurves(&mut out, hot);
     for (patch, surface) in hot.patches.iter().zip(surfaces) {
         out.surfaces[patch.surface] = Surface::BSpline(surface.into());

@@ -9,7 +9,8 @@ use super::fit::{self, Fit, Problem};
 use super::hot::{Hot, Joint, Patch};
 use super::links::{self, Tie};
 use super::measure;
-use super::options::{Options, Progress};
+use super::options::Options;
+use super::progress::{Progress, tell};
 use super::rebuild;
 use super::report::Seconds;
 use super::represent::reknot;
@@ -41,17 +42,13 @@ const HELD: f64 = 1e-6;
 /// # Errors
 /// See [`Error`]; nothing is returned that does not hold together.
 pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
-    options.check()?;
     let start = Instant::now();
     let mut seconds = Seconds::default();
     let mut warnings = field.warnings.clone();
-    step(progress, "placing nodes on faces", 0.05)?;
-    let mut selected = select(brep, field, options, &mut warnings)?;
-    let fixed = fixed_faces(&selected.hot, options)?;
-    hold_nodes(&mut selected, &fixed);
+    let (selected, fixed) = place(brep, field, options, &mut warnings, progress)?;
     seconds.associate = start.elapsed().as_secs_f64();
 
-    step(progress, "fitting each face", 0.25)?;
+    tell(progress, "preparing the fit", 0.25)?;
     let clock = Instant::now();
     let task = Task::new(&selected, fixed, options, &mut warnings)?;
     let fit = task.fit(&|_| true, &|stage, s| progress(stage, 0.3 + 0.4 * s))?;
@@ -59,23 +56,38 @@ pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
     let holdout = if options.holdout { Some(task.holdout(progress)?) } else { None };
     seconds.fit = clock.elapsed().as_secs_f64();
 
-    step(progress, "rebuilding the solid", 0.75)?;
+    tell(progress, "rebuilding the solid", 0.75)?;
     let clock = Instant::now();
     let edges = rebuild::new_edges(&selected.hot, &cold)?;
     let out = rebuild::rebuild(&selected.brep, &selected.hot, &cold, &edges);
-    step(progress, "measuring the result", 0.85)?;
+    tell(progress, "measuring the result", 0.85)?;
     let outcome =
         Outcome { selected: &selected, task: &task, fit: &fit, cold: &cold, edges: &edges, out: &out };
     let (mut report, nodes) = summary::summarise(&outcome, field, options, holdout.as_deref(), warnings)?;
     seconds.rebuild = clock.elapsed().as_secs_f64();
     seconds.total = start.elapsed().as_secs_f64();
     report.seconds = seconds;
-    step(progress, "done", 1.0)?;
+    tell(progress, "done", 1.0)?;
     Ok(Morphed { brep: out, report, nodes })
 }
 
-fn step(progress: Progress<'_>, stage: &str, fraction: f64) -> Result<()> {
-    if progress(stage, fraction) { Ok(()) } else { Err(Error::Cancelled) }
+/// Brings the nodes to the faces; returns which faces the user holds, too.
+///
+/// # Errors
+/// See [`select`] and [`Error::Argument`].
+pub fn place(
+    brep: &Brep,
+    field: &Field,
+    options: &Options,
+    warnings: &mut Vec<String>,
+    progress: Progress<'_>,
+) -> Result<(Selected, Vec<bool>)> {
+    options.check()?;
+    tell(progress, "placing nodes on faces", 0.05)?;
+    let mut selected = select(brep, field, options, warnings)?;
+    let fixed = fixed_faces(&selected.hot, options)?;
+    hold_nodes(&mut selected, &fixed);
+    Ok((selected, fixed))
 }
 
 /// What is to be fitted, ready to go.
@@ -107,7 +119,11 @@ pub struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(
+    /// Gets ready to fit.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for areas without nodes that the field is not to be extended over.
+    pub fn new(
         selected: &'a Selected,
         fixed: Vec<bool>,
         options: &Options,

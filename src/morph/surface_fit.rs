@@ -1,6 +1,7 @@
 //! The displacement of one patch: data, thin-plate regularisation, and knots where they are asked.
 
 use super::data::PatchData;
+use super::progress::Shared;
 use super::refine::{Limit, Marks};
 use super::space::{Line, NormalEquations, Space, bending, combine};
 use crate::error::Result;
@@ -173,15 +174,22 @@ pub fn residuals(space: &Space, data: &PatchData, cells: &Cells, x: &[DVec3]) ->
 }
 
 /// Fits one patch on its own, inserting knots until its data are met, the mesh carries no more,
-/// or the limit is reached.
+/// or the limit is reached; `stage` hears of every round.
 ///
 /// # Errors
-/// [`crate::Error::Numerics`] where the equations cannot be solved.
-pub fn fit_alone(mut space: Space, hot: &NurbsSurface, data: &PatchData, limit: &Limit) -> Result<Space> {
+/// [`crate::Error::Numerics`] where the equations cannot be solved; [`crate::Error::Cancelled`].
+pub fn fit_alone(
+    mut space: Space,
+    hot: &NurbsSurface,
+    data: &PatchData,
+    limit: &Limit,
+    stage: &Shared<'_>,
+) -> Result<Space> {
     if data.data.is_empty() {
         return Ok(space);
     }
     loop {
+        stage.goes_on()?;
         let cells = Cells::new(&space, data);
         let x = equations(&space, hot, data, &cells).solve()?;
         let marks = mark(&cells, hot, &residuals(&space, data, &cells, &x), |_| SHORTEST);

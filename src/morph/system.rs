@@ -40,12 +40,18 @@ pub struct Link {
     pub weight: f64,
 }
 
-/// Solves for the coefficients of every block.
+/// Solves for the coefficients of every block; `assembled` is called before the factorisation.
 ///
 /// # Errors
-/// [`crate::Error::Numerics`] where the system is singular.
-pub fn solve(blocks: &[Block], links: &[Link], unknowns: usize) -> Result<Vec<Vec<DVec3>>> {
+/// [`crate::Error::Numerics`] where the system is singular; what `assembled` returns.
+pub fn solve(
+    blocks: &[Block],
+    links: &[Link],
+    unknowns: usize,
+    assembled: &dyn Fn() -> Result<()>,
+) -> Result<Vec<Vec<DVec3>>> {
     let matrix = SymmetricMatrix::new(unknowns, &Assembly::new(blocks, links));
+    assembled()?;
     let factor = SparseCholesky::new(&matrix)?;
     let mut x = vec![DVec3::ZERO; unknowns];
     for block in blocks {
@@ -227,7 +233,7 @@ mod tests {
         }
         let links = links(&a, &b);
         let blocks = [a, b];
-        let x = solve(&blocks, &links, 40).unwrap();
+        let x = solve(&blocks, &links, 40, &|| Ok(())).unwrap();
         let worst = links.iter().map(|l| jump(&blocks, l, &x).length()).fold(0.0, f64::max);
         assert!(worst < 1e-3, "the links leave {worst} of 0.01");
     }
@@ -237,7 +243,7 @@ mod tests {
         let (a, b) = (block(0, false), block(0, true));
         let links = links(&a, &b);
         let blocks = [a, b];
-        let x = solve(&blocks, &links, 20).unwrap();
+        let x = solve(&blocks, &links, 20, &|| Ok(())).unwrap();
         let edge = blocks[0].space.apply(&links[3].a.1, &x[0]);
         assert!((edge - DVec3::X).length() < 1e-4, "edge went to {edge}");
         assert!(x[1].iter().all(|p| *p == DVec3::X), "a prescribed coefficient moved");

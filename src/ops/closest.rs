@@ -27,7 +27,11 @@ const STEPS: usize = 30;
 /// the knot domain. Finds a local minimum only: the caller starts from every place of interest.
 pub fn foot(surface: &NurbsSurface, p: DVec3, start: DVec2) -> Foot {
     let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
-    let (low, high) = (DVec2::new(u0, v0), DVec2::new(u1, v1));
+    foot_within(surface, p, start, [DVec2::new(u0, v0), DVec2::new(u1, v1)])
+}
+
+/// As [`foot`], kept within the rectangle of parameters from `low` to `high`.
+pub fn foot_within(surface: &NurbsSurface, p: DVec3, start: DVec2, [low, high]: [DVec2; 2]) -> Foot {
     let mut uv = start.clamp(low, high);
     let mut d = surface.derivatives(uv.x, uv.y);
     for _ in 0..STEPS {
@@ -35,7 +39,7 @@ pub fn foot(surface: &NurbsSurface, p: DVec3, start: DVec2) -> Foot {
         let gradient = DVec2::new(d.u.dot(r), d.v.dot(r));
         // A coordinate at its bound with the descent pointing out is frozen.
         let frozen = |x: f64, a: f64, b: f64, g: f64| (x <= a && g > 0.0) || (x >= b && g < 0.0);
-        let stuck = [frozen(uv.x, u0, u1, gradient.x), frozen(uv.y, v0, v1, gradient.y)];
+        let stuck = [frozen(uv.x, low.x, high.x, gradient.x), frozen(uv.y, low.y, high.y, gradient.y)];
         let (step, newton) = newton_step(&d, r, gradient, stuck);
         let mut next = (uv + step).clamp(low, high);
         let mut e = surface.derivatives(next.x, next.y);

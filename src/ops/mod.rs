@@ -1,9 +1,10 @@
-//! Operations on splines: interpolation, least squares, approximation, skinning, closest points.
+//! Operations on splines: interpolation, least squares, approximation, skinning, nearest points.
 
 pub mod approximate;
 pub mod closest;
 pub mod conditions;
 pub mod interpolate;
+pub mod invert;
 pub mod least_squares;
 pub mod parametrise;
 pub mod skin;

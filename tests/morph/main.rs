@@ -3,6 +3,7 @@
 
 mod affine;
 mod cancel;
+mod check;
 mod determinism;
 mod errors;
 mod fields;

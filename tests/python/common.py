@@ -32,6 +32,9 @@ FreeCAD = sys.modules["FreeCAD"]
 
 _RESULTS = tempfile.TemporaryDirectory(prefix="bladesmith-tests-")
 
+# The tests must not fill the user's log.
+os.environ["BLADESMITH_LOG"] = str(Path(_RESULTS.name, "bladesmith.log"))
+
 
 def bladesmith(*arguments, **environment) -> subprocess.CompletedProcess:
     """Runs the command line with a fixed header time; output as text."""
@@ -77,6 +80,23 @@ def morph(part: Path, field: Path, *options: str) -> Morph:
     return Morph(done.returncode, done.stdout, done.stderr, output, document)
 
 
+_USER_CONFIGURATION = """\
+<?xml version="1.0" encoding="UTF-8" standalone="no" ?>
+<FCParameters><FCParamGroup Name="Root"><FCParamGroup Name="BaseApp">
+<FCParamGroup Name="Preferences"><FCParamGroup Name="General">
+<FCText Name="AutoloadModule">PartWorkbench</FCText>
+<FCText Name="Language">{language}</FCText>
+</FCParamGroup></FCParamGroup></FCParamGroup></FCParamGroup></FCParameters>
+"""
+
+
+def user_home(folder: Path, language: str = "English") -> None:
+    """Makes ``folder`` a user home of FreeCAD in which the add-on is installed, by a link."""
+    (folder / "Mod").mkdir()
+    (folder / "Mod" / "Bladesmith").symlink_to(ROOT)
+    (folder / "user.cfg").write_text(_USER_CONFIGURATION.format(language=language))
+
+
 def packed(name: str) -> Path:
     """A small case that ships with the tests: ``base.step``, ``base.frd``, ``base.inp`` ..."""
     return P5 / f"{name}.gz"
@@ -119,6 +139,26 @@ def probes(path: Path) -> list:
     for row in rows[1:]:
         x, y, z, ux, uy, uz = map(float, row[:6])
         found.append(Probe(FreeCAD.Vector(x, y, z), FreeCAD.Vector(ux, uy, uz), int(row[6])))
+    return found
+
+
+def frd_rows(path: Path) -> list:
+    """(number, point, displacement) of the nodes of a small ASCII ``.frd`` file, gzipped."""
+    lines = gzip.decompress(path.read_bytes()).decode().splitlines()
+    starts = [i for i, line in enumerate(lines) if line.split()[:1] == ["2C"]]
+    moved = [i for i, line in enumerate(lines) if line.startswith(" -4") and "DISP" in line]
+    points, displacements = (_frd_block(lines, start) for start in (starts[0], moved[-1]))
+    return [(n, points[n], displacements[n]) for n in sorted(points)]
+
+
+def _frd_block(lines: list, start: int) -> dict:
+    found = {}
+    for line in lines[start + 1 :]:
+        if line.startswith(" -3"):
+            return found
+        if line.startswith(" -1"):
+            values = [float(line[13 + 12 * k : 25 + 12 * k]) for k in range(3)]
+            found[int(line[3:13])] = tuple(values)
     return found
 
 

@@ -91,12 +91,19 @@ class CompressorBlade(Case):
         self.assertLessEqual(report["holdout_mm"]["mean"], 2e-5)
         self.assertLessEqual(report["holdout_mm"]["max"], 1e-3)
 
-    # Known miss: 5.3e-5 and 5.8e-5 mm on both sides of the aerofoil. Fails as soon as it is met.
-    @unittest.expectedFailure
+    def assert_holdout(self, index):
+        face = self.morphed().report["faces"][index - 1]
+        self.assertLessEqual(face["holdout_mm"]["max"], 5e-5, face["name"])
+
     def test_nodes_of_the_aerofoil_that_were_not_used_are_met(self):
-        for index in self.AEROFOIL:
-            face = self.morphed().report["faces"][index - 1]
-            self.assertLessEqual(face["holdout_mm"]["max"], 5e-5, face["name"])
+        for index in set(self.AEROFOIL) - {5}:
+            self.assert_holdout(index)
+
+    # Known miss: 5.3e-5 mm at one node on the fillet's edge, which lies 3.5e-5 mm off a polynomial
+    # through its neighbours on that edge. Fails as soon as the limit is met.
+    @unittest.expectedFailure
+    def test_nodes_of_face_5_that_were_not_used_are_met(self):
+        self.assert_holdout(5)
 
     def test_the_probes_are_reproduced(self):
         self.assert_probes(self.morphed(), self.PART, common.EXAMPLE / "probes.csv.gz", 2e-5)

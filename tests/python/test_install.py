@@ -1,4 +1,4 @@
-"""``make install``: the command works from its new place, without the checkout."""
+"""``make install`` and ``make uninstall``: the command works from its new place, and goes again."""
 
 import os
 import subprocess
@@ -9,19 +9,24 @@ from pathlib import Path
 import common
 
 
+def make(verb: str, **variables) -> subprocess.CompletedProcess:
+    """Runs a verb of the Makefile as from a terminal of its own."""
+    plain = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
+    return subprocess.run(
+        ["make", verb, *(f"{name}={value}" for name, value in variables.items())],
+        cwd=common.ROOT,
+        env=plain,
+        capture_output=True,
+        text=True,
+        stdin=subprocess.DEVNULL,
+    )
+
+
 class Installation(unittest.TestCase):
-    def test_the_installed_command_finds_its_own_library(self):
+    def test_the_installed_command_finds_its_own_library_and_goes_again(self):
         with tempfile.TemporaryDirectory(prefix="bladesmith-tests-") as folder:
             prefix = Path(folder, "usr")
-            plain = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
-            made = subprocess.run(
-                ["make", "install", f"PREFIX={prefix}"],
-                cwd=common.ROOT,
-                env=plain,
-                capture_output=True,
-                text=True,
-                stdin=subprocess.DEVNULL,
-            )
+            made = make("install", PREFIX=prefix)
             self.assertEqual(made.returncode, 0, made.stderr)
             output = Path(folder, "cold.step")
             arguments = [common.packed("base.step"), common.packed("base.frd"), "-o", output]
@@ -34,6 +39,23 @@ class Installation(unittest.TestCase):
             )
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(common.Part.read(str(output)).isValid())
+            removed = make("uninstall", PREFIX=prefix)
+            self.assertEqual(removed.returncode, 0, removed.stderr)
+            self.assertEqual(sorted(prefix.rglob("*")), [])
+
+    def test_a_staged_installation_goes_below_destdir_and_knows_its_prefix(self):
+        with tempfile.TemporaryDirectory(prefix="bladesmith-tests-") as folder:
+            made = make("install", PREFIX="/opt/blades", DESTDIR=folder)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            self.assertEqual(os.listdir(folder), ["opt"])
+            shell = Path(folder, "opt", "blades", "bin", "bladesmith")
+            said = subprocess.run([shell, "--version"], capture_output=True, text=True, check=True)
+            self.assertRegex(said.stdout, r"bladesmith \d+\.\d+")
+            for text in Path(folder).rglob("*.pc"):
+                self.assertNotIn(folder, text.read_text())
+            removed = make("uninstall", PREFIX="/opt/blades", DESTDIR=folder)
+            self.assertEqual(removed.returncode, 0, removed.stderr)
+            self.assertEqual(sorted(Path(folder, "opt", "blades").rglob("*")), [])
 
 
 if __name__ == "__main__":

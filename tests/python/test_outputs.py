@@ -8,10 +8,10 @@ import unittest
 from pathlib import Path
 
 import common  # noqa: F401  (puts the package on the path)
-from freecad.bladesmith.cli.faces import selected
-from freecad.bladesmith.cli.outputs import Outputs, check_target
 from freecad.bladesmith.cli.progress import Progress
 from freecad.bladesmith.native import InputError
+from freecad.bladesmith.operations.faces import selected
+from freecad.bladesmith.operations.outputs import Outputs, check_target
 
 
 class Files(unittest.TestCase):

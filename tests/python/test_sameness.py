@@ -3,7 +3,7 @@
 import unittest
 
 import common
-from common import bladesmith, morph, packed
+from common import bladesmith, morph, packed, shared_data
 
 BLADE = (common.EXAMPLE / "hot.step.gz", common.EXAMPLE / "blade.frd.gz")
 
@@ -69,6 +69,24 @@ class Cancelling(unittest.TestCase):
 
         with self.assertRaises(KeyboardInterrupt):
             native.Morphed.morph(part, field, {}, interrupt)
+
+    def test_the_largest_part_asks_at_every_face_whether_to_go_on(self):
+        folder = shared_data("P3")
+        from freecad.bladesmith import native
+        from freecad.bladesmith.occ import step
+
+        shape = step.read(str(folder / "hot.step")).shape
+        part = native.Part.read(shape.exportBrepToString(), "P3")
+        field = native.Field.read(str(folder / "P3.frd.gz"), str(folder / "P3.inp.gz"))
+        heard = []
+
+        def listen(_stage, fraction):
+            heard.append(fraction)
+            return True
+
+        native.Morphed.morph(part, field, {"factor": -1.0}, listen)
+        self.assertGreater(len(heard), len(shape.Faces))
+        self.assertEqual(heard, sorted(heard), "progress goes back")
 
 
 class Names(unittest.TestCase):

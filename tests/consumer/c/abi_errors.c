@@ -47,6 +47,11 @@ static int32_t part_info(const void *handle, char *buffer, size_t capacity, size
     return bladesmith_part_info(handle, buffer, capacity, length);
 }
 
+static int32_t morphed_report(const void *handle, char *buffer, size_t capacity, size_t *length)
+{
+    return bladesmith_morphed_report(handle, buffer, capacity, length);
+}
+
 static int32_t part_write(const void *handle, char *buffer, size_t capacity, size_t *length)
 {
     return bladesmith_part_write(handle, buffer, capacity, length);
@@ -182,16 +187,60 @@ static void check_morph(const bladesmith_part *part, const bladesmith_field *fie
     EXPECT_TRUE(none == NULL);
 }
 
-static void check_morphed(void)
+static void check_check(const bladesmith_part *part, const bladesmith_field *field)
+{
+    size_t length = 0, again = 0;
+    char tiny[8] = "#######";
+    EXPECT(bladesmith_check(NULL, field, NULL, NULL, NULL, NULL, 0, &length), ARGUMENT, "'part': is NULL");
+    EXPECT(bladesmith_check(part, NULL, NULL, NULL, NULL, NULL, 0, &length), ARGUMENT, "'field': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, NULL, 0, NULL), ARGUMENT, "'length': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, NULL, 8, &length), ARGUMENT, "'buffer': is NULL");
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, tiny, sizeof tiny, &length), SMALL, "enlarge");
+    EXPECT_TRUE(length > sizeof tiny && strcmp(tiny, "#######") == 0);
+    char *json = malloc(length + 1);
+    EXPECT(bladesmith_check(part, field, NULL, NULL, NULL, json, length + 1, &again), OK, "");
+    EXPECT_TRUE(again == length && strlen(json) == length && strstr(json, "\"nodes_on_faces\""));
+    free(json);
+}
+
+static void check_nodes(const bladesmith_morphed *morphed)
+{
+    size_t count = 0, again = 0;
+    EXPECT(bladesmith_morphed_nodes(morphed, 0, NULL, NULL, NULL, NULL, NULL, NULL), ARGUMENT, "'count': is NULL");
+    EXPECT(bladesmith_morphed_nodes(morphed, 0, NULL, NULL, NULL, NULL, NULL, &count), OK, "");
+    EXPECT_TRUE(count > 1);
+    int64_t *ids = malloc(count * sizeof *ids);
+    double *feet = malloc(3 * count * sizeof *feet);
+    double *odd = (double *)(void *)((char *)feet + 1);
+    ids[0] = ids[count - 2] = -7;
+    EXPECT(bladesmith_morphed_nodes(morphed, 1, ids, NULL, NULL, NULL, NULL, &again), SMALL, "enlarge");
+    EXPECT_TRUE(again == count && ids[0] == -7);
+    EXPECT(bladesmith_morphed_nodes(morphed, count - 1, ids, NULL, feet, NULL, NULL, &again), SMALL, "enlarge");
+    EXPECT_TRUE(again == count && ids[0] == -7 && ids[count - 2] == -7);
+    EXPECT(bladesmith_morphed_nodes(morphed, count, ids, NULL, odd, NULL, NULL, &again), ARGUMENT, "'feet': is not aligned");
+    EXPECT(bladesmith_morphed_nodes(morphed, SIZE_MAX / 2, ids, NULL, feet, NULL, NULL, &again), ARGUMENT, "address space");
+    EXPECT_TRUE(ids[0] == -7);
+    EXPECT(bladesmith_morphed_nodes(morphed, count, ids, NULL, feet, NULL, NULL, &again), OK, "");
+    EXPECT_TRUE(again == count && ids[0] != -7);
+    free(ids);
+    free(feet);
+}
+
+static void check_morphed(const bladesmith_part *part, const bladesmith_field *field)
 {
     bladesmith_part *none = NULL;
+    bladesmith_morphed *morphed = NULL;
     size_t count = 7;
     EXPECT(bladesmith_morphed_part(NULL, &none), ARGUMENT, "'morphed': is NULL");
-    EXPECT(bladesmith_morphed_report(NULL, NULL, 0, &count), ARGUMENT, "'morphed': is NULL");
     EXPECT(bladesmith_morphed_nodes(NULL, 0, NULL, NULL, NULL, NULL, NULL, &count), ARGUMENT, "'morphed'");
     EXPECT_TRUE(none == NULL && count == 7);
     bladesmith_morphed_free(NULL);
     EXPECT_TRUE(strstr(bladesmith_last_error(), "'morphed'") != NULL);
+    EXPECT(bladesmith_morph(part, field, NULL, NULL, NULL, &morphed), OK, "");
+    EXPECT(bladesmith_morphed_part(morphed, NULL), ARGUMENT, "'out': is NULL");
+    check_text(morphed_report, morphed, "'morphed': is NULL");
+    check_nodes(morphed);
+    bladesmith_morphed_free(morphed);
 }
 
 int main(int argc, char **argv)
@@ -210,7 +259,8 @@ int main(int argc, char **argv)
     check_evaluate(part);
     check_text(field_info, field, "'field': is NULL");
     check_morph(part, field);
-    check_morphed();
+    check_check(part, field);
+    check_morphed(part, field);
     bladesmith_part_free(part);
     bladesmith_field_free(field);
     if (failures > 0)

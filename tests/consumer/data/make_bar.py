@@ -62,7 +62,11 @@ def frd(points):
     count = len(points)
     lines = ["    1C", f"    2C{'':18}{count:12d}{'':37}1"]
     lines += [record(i + 1, p) for i, p in enumerate(points)]
-    lines += [" -3", f"  100CL  101 1.000000000{count:12d}{'':21}0    1           1", " -4  DISP        4    1"]
+    lines += [
+        " -3",
+        f"  100CL  101 1.000000000{count:12d}{'':21}0    1           1",
+        " -4  DISP        4    1",
+    ]
     lines += [f" -5  D{i}          1    2    {i}    0" for i in (1, 2, 3)]
     lines += [" -5  ALL         1    2    0    0    1ALL"]
     lines += [record(i + 1, displacement(p)) for i, p in enumerate(points)]
@@ -72,7 +76,10 @@ def frd(points):
 def main():
     shape = bar()
     (HERE / "bar.brep").write_text(shape.exportBrepToString())
-    with open(HERE / "bar.frd.gz", "wb") as file, gzip.GzipFile("", "wb", fileobj=file, mtime=0) as packed:
+    with (
+        open(HERE / "bar.frd.gz", "wb") as file,
+        gzip.GzipFile("", "wb", fileobj=file, mtime=0) as packed,
+    ):
         packed.write(frd(surface_points(shape)).encode())
 
 

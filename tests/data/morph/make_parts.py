@@ -34,7 +34,9 @@ def cylinder():
 
 def drop():
     """A cone's tip on a half ball: two poles, two seams, a tangent joint."""
-    ball = Part.makeSphere(3, Vector(0, 0, 0), Vector(0, 0, 1), -90, math.degrees(math.asin(0.6)), 360)
+    ball = Part.makeSphere(
+        3, Vector(0, 0, 0), Vector(0, 0, 1), -90, math.degrees(math.asin(0.6)), 360
+    )
     r, z = 3 * 0.8, 3 * 0.6
     cone = Part.makeCone(r, 0, r * 0.8 / 0.6, Vector(0, 0, z))
     return ball.fuse(cone)
@@ -47,14 +49,18 @@ def torus():
 def vase():
     """A spline turned all round."""
     spline = Part.BSplineCurve()
-    spline.interpolate([Vector(3, 0, 0), Vector(4, 0, 2), Vector(2.5, 0, 5), Vector(2, 0, 7), Vector(3, 0, 9)])
+    spline.interpolate(
+        [Vector(3, 0, 0), Vector(4, 0, 2), Vector(2.5, 0, 5), Vector(2, 0, 7), Vector(3, 0, 9)]
+    )
     top, axis = Vector(0, 0, 9), Vector(0, 0, 0)
-    wire = Part.Wire([
-        Part.makeLine(axis, Vector(3, 0, 0)),
-        spline.toShape(),
-        Part.makeLine(Vector(3, 0, 9), top),
-        Part.makeLine(top, axis),
-    ])
+    wire = Part.Wire(
+        [
+            Part.makeLine(axis, Vector(3, 0, 0)),
+            spline.toShape(),
+            Part.makeLine(Vector(3, 0, 9), top),
+            Part.makeLine(top, axis),
+        ]
+    )
     return Part.makeSolid(Part.Face(wire).revolve(axis, Vector(0, 0, 1), 360))
 
 
@@ -63,7 +69,13 @@ def bar():
     wires = []
     for k in range(4):
         x, y = 6 - 0.5 * k, 2 - 0.2 * k
-        corners = [Vector(-x, -y, 0), Vector(x, -y, 0), Vector(x, y, 0), Vector(-x, y, 0), Vector(-x, -y, 0)]
+        corners = [
+            Vector(-x, -y, 0),
+            Vector(x, -y, 0),
+            Vector(x, y, 0),
+            Vector(-x, y, 0),
+            Vector(-x, -y, 0),
+        ]
         wire = Part.makePolygon(corners)
         wire.rotate(Vector(), Vector(0, 0, 1), 12 * k)
         wire.translate(Vector(0.3 * k, 0, 8 * k))
@@ -86,7 +98,9 @@ def leaf():
         poles.append(line)
     surface = Part.BSplineSurface()
     knots = [float(i) for i in range(count + 1)]
-    surface.buildFromPolesMultsKnots(poles, [1] * (count + 1), [4, 1, 4], knots, [0, 1, 2], True, False, 3, 3)
+    surface.buildFromPolesMultsKnots(
+        poles, [1] * (count + 1), [4, 1, 4], knots, [0, 1, 2], True, False, 3, 3
+    )
     side = surface.toShape()
     ends = [Part.Face(Part.Wire(e)) for e in side.Edges if e.isClosed()]
     shell = Part.makeShell([side] + ends)
@@ -97,7 +111,11 @@ def leaf():
 def slivers():
     """A box with a chamfer of 0.02 mm, a step of 0.05 mm and a hole of 0.1 mm."""
     box = Part.makeBox(10, 6, 4)
-    edge = [e for e in box.Edges if e.BoundBox.XLength > 9 and e.BoundBox.ZMin > 3 and e.BoundBox.YMin > 5]
+    edge = [
+        e
+        for e in box.Edges
+        if e.BoundBox.XLength > 9 and e.BoundBox.ZMin > 3 and e.BoundBox.YMin > 5
+    ]
     body = box.makeChamfer(0.02, edge)
     body = body.cut(Part.makeBox(5, 0.05, 1, Vector(0, 0, 3)))
     return body.cut(Part.makeCylinder(0.05, 10, Vector(7, 3, -1)))
@@ -111,6 +129,7 @@ def from_step(name):
             step.write(text)
             step.flush()
             return Part.read(step.name)
+
     return read
 
 
@@ -126,6 +145,12 @@ PARTS.update({name: from_step(name) for name in ("base", "sphere", "two_solids",
 
 for name, make in PARTS.items():
     shape = make()
-    print(name, shape.ShapeType, shape.isValid(), len(shape.Faces), [f.Surface.TypeId.split("::")[1] for f in shape.Faces][:40])
+    print(
+        name,
+        shape.ShapeType,
+        shape.isValid(),
+        len(shape.Faces),
+        [f.Surface.TypeId.split("::")[1] for f in shape.Faces][:40],
+    )
     with open(os.path.join(HERE, name + ".brep.gz"), "wb") as file:
         file.write(gzip.compress(shape.exportBrepToString().encode(), mtime=0))

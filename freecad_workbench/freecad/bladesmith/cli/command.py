@@ -10,7 +10,7 @@ import sys
 import traceback
 from typing import Optional
 
-from .. import __version__
+from .. import __version__, log
 from ..model.options import FIELD_UNITS_MM
 from ..native.errors import BladesmithError, Cancelled, InternalError
 from . import interruption
@@ -18,13 +18,15 @@ from . import interruption
 EXIT_FAILURE = 1
 _EPILOG = """\
 exit codes: 0 success, 2 unusable input, 3 the result misses --tolerance (it is still written),
-1 anything else. Lengths are millimetres. BLADESMITH_DEBUG=1 shows where an error came from."""
+1 anything else. Lengths are millimetres. BLADESMITH_DEBUG=1 shows where an error came from; what
+happened is kept in a log, 'bladesmith log' tells where."""
 
 
 def main(arguments: Optional[list[str]] = None) -> int:
     """Runs one command and returns its exit code."""
     interruption.install()
     options = _parser().parse_args(arguments)
+    log.start(f"command line, {options.command}")
     try:
         code = options.run(options)
         sys.stdout.flush()
@@ -48,8 +50,9 @@ def _failed(error: BladesmithError) -> int:
     if os.environ.get("BLADESMITH_DEBUG"):
         traceback.print_exc()
     message = " ".join(str(error).split())
-    if isinstance(error, InternalError):
-        message += " (a defect of Bladesmith: run again with BLADESMITH_DEBUG=1 and report it)"
+    log.failure(error)
+    if error.defect:
+        message += f" (a defect of Bladesmith: please report it with the log, {log.path()})"
     print(f"bladesmith: {message}", file=sys.stderr)
     return error.exit_code
 
@@ -62,9 +65,12 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"bladesmith {__version__}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(
+        title="commands", metavar="COMMAND", dest="command", required=True
+    )
     _add_morph(commands)
     _add_info(commands)
+    _add_log(commands)
     return parser
 
 
@@ -158,6 +164,21 @@ def _add_info(commands) -> None:
     parser.add_argument("--json", metavar="FILE", help="write it as JSON")
     parser.add_argument("--quiet", action="store_true", help="print errors only")
     parser.set_defaults(run=_run_info)
+
+
+def _add_log(commands) -> None:
+    parser = commands.add_parser(
+        "log",
+        help="tell where the log is, to send with a question",
+        description="Prints the name of the log file: versions, names and sizes of inputs, stages "
+        "with their times, warnings and errors; no folders and no geometry.",
+    )
+    parser.set_defaults(run=_run_log)
+
+
+def _run_log(_options: argparse.Namespace) -> int:
+    print(log.path())
+    return 0
 
 
 def _run_morph(options: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..native import Field, Part
 from ..occ import judge, step
-from .outputs import Outputs, check_target
+from ..operations.outputs import Outputs, check_target
 
 
 def run(options: argparse.Namespace) -> int:

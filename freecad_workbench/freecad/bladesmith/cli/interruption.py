@@ -24,6 +24,12 @@ def _handle(_number, _frame) -> None:
         raise KeyboardInterrupt
 
 
+def too_late() -> None:
+    """Lets both signals pass from here on: results are about to get their names."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+
+
 def asked() -> bool:
     """Whether a signal has asked to stop."""
     return _asked

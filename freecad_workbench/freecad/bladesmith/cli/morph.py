@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
 
-from .. import __version__
 from ..model import FIELD_UNITS_MM, MorphOptions, Report
-from ..native import BladesmithError, Field, InputError, Morphed, Part, SetupError
+from ..native import InputError, SetupError
 from ..occ import judge, step
+from ..operations.export import write_step
+from ..operations.faces import selected
+from ..operations.morph import FieldFile, Job, accept
+from ..operations.morph import run as run_job
+from ..operations.outputs import Outputs, check_target
 from . import interruption
-from .faces import selected
-from .names_file import names_path, names_text
-from .outputs import Outputs, check_target
 from .progress import Progress
 from .summary import print_summary
 
 EXIT_MISSES_TOLERANCE = 3
-_TOOL = f"Bladesmith {__version__}"
 
 _READ_DONE, _CORE_DONE = 0.2, 0.75
 """Fractions of the whole work, for the progress bar."""
@@ -49,6 +49,7 @@ def run(options: argparse.Namespace) -> int:
         _write_solid(options, part, result, outputs, progress)
         result.report.seconds["write"] += time.monotonic() - written
         _write_report(options, result, outputs, progress, started)
+        interruption.too_late()
         outputs.commit()
     missed = result.report.misses(options.tolerance)
     if not options.quiet:
@@ -100,27 +101,26 @@ def _morph(
     chosen = step.chosen_solid(part, options.solid)
     settings = _settings(options, part, chosen)
     shape = part.shape if chosen is None else part.shape.Solids[chosen]
-    core_part = Part.read(shape.exportBrepToString(), options.part)
-    progress("reading the field", _READ_DONE / 2)
-    field = Field.read(options.field, options.mesh, options.step or 0)
+    field = FieldFile(options.field, options.mesh, options.step or 0)
+    job = Job(shape, options.part, field, settings)
     read = time.monotonic() - started
+    progress("reading the field", _READ_DONE / 2)
 
     def share(stage: str, fraction: float) -> bool:
         progress(stage, _READ_DONE + (_CORE_DONE - _READ_DONE) * fraction)
         return not interruption.asked()
 
     with interruption.deferred():
-        morphed = Morphed.morph(core_part, field, settings.settings(), share)
-    report = Report(morphed.report())
-    report.seconds["read"] = read
-    cold = step.from_brep(morphed.part().write())
+        done = run_job(job, share)
+    report = done.report
+    report.seconds["read"] += read
     if chosen is None:
-        chosen = step.nearest_solid(part.shape.Solids, cold)
+        chosen = step.nearest_solid(part.shape.Solids, done.shape)
     attributes = part.solids[chosen]
     report.name_faces(attributes.face_names)
     report.warn(*part.warnings)
-    nodes = morphed.nodes() if options.report else None
-    return _Result(cold, part.shape.Solids[chosen], attributes, report, nodes)
+    nodes = done.nodes() if options.report else None
+    return _Result(done.shape, part.shape.Solids[chosen], attributes, report, nodes)
 
 
 def _settings(
@@ -158,43 +158,12 @@ def _write_solid(
     """Writes the STEP file under its temporary name, reads it back, and judges both."""
     progress("judging the solid", _CORE_DONE)
     verdict = judge.judge(result.shape)
-    if not (verdict.valid and verdict.closed):
-        _refuse_unless_input_was_bad(options, result, verdict.complaints)
+    accept(result.report, verdict, result.hot, f"{options.output} was not written")
     progress("writing", _CORE_DONE + 0.05)
-    name = outputs.file(options.output)
-    step.write(result.shape, name, part.product, result.attributes, _TOOL)
-    progress("reading back", _CORE_DONE + 0.15)
-    again = step.read_back(name)
-    tolerance = judge.comparison_tolerance(result.shape)
-    different = judge.differences(result.shape, again, tolerance)
-    if different:
-        raise BladesmithError(
-            f"{options.output} was not written: read back, it is not the morphed solid "
-            f"({'; '.join(different[:3])})"
-        )
-    verdict_again = judge.judge(again)
-    if verdict.valid and not (verdict_again.valid and verdict_again.closed):
-        _refuse_unless_input_was_bad(options, result, verdict_again.complaints)
-    result.report.judged(verdict_again.valid and verdict.valid, verdict_again.closed)
-    if result.attributes.has_face_names:
-        names = outputs.file(names_path(options.output))
-        Path(names).write_text(names_text(part.product, result.attributes), "utf-8")
-
-
-def _refuse_unless_input_was_bad(
-    options: argparse.Namespace, result: _Result, complaints: list[str]
-) -> None:
-    """A bad result of a good solid is ours and not written; of a bad one it is told."""
-    what = "; ".join(complaints)
-    before = judge.judge(result.hot)
-    if before.valid and before.closed:
-        raise BladesmithError(
-            f"{options.output} was not written: Open CASCADE finds the morphed solid {what}"
-        )
-    result.report.warn(
-        f"the input solid is {'; '.join(before.complaints)}, and so is the result: {what}; "
-        "repair the input in the CAD system"
-    )
+    written = write_step(outputs, options.output, result.shape, part.product, result.attributes)
+    if verdict.valid:
+        accept(result.report, written, result.hot, f"{options.output} was not written")
+    result.report.judged(written.valid and verdict.valid, written.closed)
 
 
 def _write_report(

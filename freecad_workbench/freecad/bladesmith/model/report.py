@@ -102,6 +102,11 @@ class Report:
         self.centroid_mm = Change.of(document["solid"]["centroid_mm"])
         self.tolerance_mm = Change.of(document["solid"]["tolerance_mm"])
 
+    @classmethod
+    def of_text(cls, text: str) -> "Report":
+        """The report that :meth:`to_json` wrote."""
+        return cls(json.loads(text))
+
     @property
     def input(self) -> dict[str, Any]:
         return self.document["input"]

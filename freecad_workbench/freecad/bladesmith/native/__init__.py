@@ -3,7 +3,7 @@
 FreeCAD must be imported before numpy, so this room imports numpy only where arrays come back.
 """
 
-from .api import Field, Morphed, Part, library_version
+from .api import Field, Morphed, Part, check, library_version
 from .errors import (
     ArgumentError,
     BladesmithError,
@@ -27,5 +27,6 @@ __all__ = [
     "NumericsError",
     "Part",
     "SetupError",
+    "check",
     "library_version",
 ]

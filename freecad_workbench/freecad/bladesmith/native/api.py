@@ -6,8 +6,10 @@ Each owns one handle of the core and frees it with itself. Calls raise the excep
 
 import ctypes
 import json
+import logging
 import os
 from collections.abc import Sequence
+from contextlib import contextmanager
 from ctypes import (
     POINTER,
     byref,
@@ -20,8 +22,11 @@ from ctypes import (
 )
 from typing import Callable, Optional
 
+from .. import log
 from .errors import Cancelled, from_status
 from .finder import load
+
+_LOG = logging.getLogger(__name__)
 
 ProgressFunction = ctypes.CFUNCTYPE(c_int32, c_void_p, c_char_p, c_double)
 
@@ -50,6 +55,8 @@ class MorphOptions(ctypes.Structure):
     ]
 
 
+_SCALARS = [name for name, kind in MorphOptions._fields_ if kind in (c_double, c_uint32)]
+
 _TEXT = (c_void_p, c_char_p, c_size_t, POINTER(c_size_t))
 
 STATUS_CALLS = {
@@ -67,6 +74,14 @@ STATUS_CALLS = {
     "bladesmith_part_info": _TEXT,
     "bladesmith_part_write": _TEXT,
     "bladesmith_part_evaluate": (c_void_p, c_uint32, c_void_p, c_size_t, c_uint32, c_void_p),
+    "bladesmith_check": (
+        c_void_p,
+        c_void_p,
+        POINTER(MorphOptions),
+        ProgressFunction,
+        c_void_p,
+        *_TEXT[1:],
+    ),
     "bladesmith_morph": (
         c_void_p,
         c_void_p,
@@ -101,13 +116,16 @@ OTHER_CALLS = {
 }
 """Result and argument types of the other calls."""
 
+_CHECK_BYTES = 1 << 20
+"""Room for the answer of a check: its lists of numbers are short."""
+
 _library: Optional[ctypes.CDLL] = None
 
 
 def _core() -> ctypes.CDLL:
     global _library
     if _library is None:
-        library = load()
+        library = load({*STATUS_CALLS, *OTHER_CALLS})
         for name, arguments in STATUS_CALLS.items():
             function = getattr(library, name)
             function.argtypes, function.restype, function.errcheck = arguments, c_int32, _errcheck
@@ -160,6 +178,7 @@ class Field(_Handle):
     @classmethod
     def read(cls, path: str, mesh: Optional[str] = None, step: int = 0) -> "Field":
         """Reads results; ``mesh`` is the deck with full-precision nodes, ``step`` 0 the last."""
+        _LOG.info("field: %s, step %s", log.sizes(path, mesh), step or "the last")
         field = cls()
         mesh_bytes = None if mesh is None else os.fsencode(mesh)
         field._core.bladesmith_field_read(os.fsencode(path), mesh_bytes, step, byref(field._handle))
@@ -178,6 +197,7 @@ class Field(_Handle):
                 f"{ids.shape} ids need as many points and displacements of three components, "
                 f"not {points.shape} and {displacements.shape}"
             )
+        _LOG.info("field: %d nodes in arrays", len(ids))
         field = cls()
         field._core.bladesmith_field_from_arrays(
             name.encode(),
@@ -204,6 +224,7 @@ class Part(_Handle):
         """Parses B-rep text; ``name`` stands for it in messages."""
         part = cls()
         data = text.encode()
+        _LOG.info("part: %s, %d bytes of B-rep", os.path.basename(name), len(data))
         part._core.bladesmith_part_read(data, len(data), name.encode(), byref(part._handle))
         return part
 
@@ -252,31 +273,10 @@ class Morphed(_Handle):
         exception it raises comes out of this call.
         """
         morphed = cls()
-        options, kept = _options(morphed._core, settings)
-        raised = []
-
-        def call(_user, stage, fraction):
-            try:
-                return 0 if progress is None or progress(stage.decode(), fraction) else 1
-            except BaseException as exception:  # must not cross the C frames
-                raised.append(exception)
-                return 1
-
-        try:
+        with _call_of(morphed._core, settings, progress) as (options, call):
             morphed._core.bladesmith_morph(
-                part._handle,
-                field._handle,
-                byref(options),
-                ProgressFunction(call),
-                None,
-                byref(morphed._handle),
+                part._handle, field._handle, options, call, None, byref(morphed._handle)
             )
-        except Cancelled:
-            if raised:
-                raise raised[0] from None
-            raise
-        finally:
-            del kept
         return morphed
 
     def part(self) -> Part:
@@ -287,7 +287,11 @@ class Morphed(_Handle):
 
     def report(self) -> dict:
         """The figures, under the names of the JSON report."""
-        return json.loads(_text(self._core.bladesmith_morphed_report, self._handle))
+        report = json.loads(_text(self._core.bladesmith_morphed_report, self._handle))
+        _LOG.info("largest deviation %.2e mm", report["deviation_mm"]["max"])
+        for warning in report["warnings"]:
+            _LOG.warning("%s", warning)
+        return report
 
     def nodes(self) -> dict:
         """Arrays by node and face: ids, faces, feet, displacements, deviations (mm)."""
@@ -308,6 +312,48 @@ class Morphed(_Handle):
         return arrays
 
 
+def check(part: Part, field: Field, settings: dict, progress: Optional[Callable] = None) -> dict:
+    """How ``field`` lies on ``part``: the first stages of :meth:`Morphed.morph`, same arguments.
+
+    Raises what the morph would refuse the input for.
+    """
+    core = _core()
+    length = c_size_t()
+    buffer = ctypes.create_string_buffer(_CHECK_BYTES)
+    with _call_of(core, settings, progress) as (options, call):
+        arguments = (part._handle, field._handle, options, call, None)
+        core.bladesmith_check(*arguments, buffer, len(buffer), byref(length))
+    return json.loads(buffer.raw[: length.value].decode())
+
+
+@contextmanager
+def _call_of(core: ctypes.CDLL, settings: dict, progress: Optional[Callable[[str, float], bool]]):
+    """Options and callback for one call of the core; what ``progress`` raises comes out of it."""
+    options, kept = _options(core, settings)
+    _LOG.info("settings: %s", {name: getattr(options, name) for name in _SCALARS})
+    stages = log.Stages(_LOG)
+    raised = []
+
+    def call(_user, stage, fraction):
+        try:
+            name = stage.decode()
+            stages.enter(name)
+            return 0 if progress is None or progress(name, fraction) else 1
+        except BaseException as exception:  # must not cross the C frames
+            raised.append(exception)
+            return 1
+
+    try:
+        yield byref(options), ProgressFunction(call)
+    except Cancelled:
+        if raised:
+            raise raised[0] from None
+        raise
+    finally:
+        stages.end()
+        del kept
+
+
 def _options(core: ctypes.CDLL, settings: dict):
     """The C struct of ``settings``, and the arrays that must outlive its use."""
     options = MorphOptions()
@@ -322,9 +368,8 @@ def _options(core: ctypes.CDLL, settings: dict):
     options.fixed_faces, options.fixed_count = fixed, len(fixed)
     options.face_names, options.face_names_count = names, len(names)
     options.solid_name = solid_name
-    scalars = {name for name, kind in MorphOptions._fields_ if kind in (c_double, c_uint32)}
     for name, value in settings.items():
-        if name not in scalars:
+        if name not in _SCALARS:
             raise TypeError(f"a morph has no setting '{name}'")
         setattr(options, name, value)
     return options, (moving, fixed, names, encoded, solid_name)

@@ -1,7 +1,8 @@
 """One exception class for each range of the core's status numbers.
 
 The ranges: 1-9 the caller, 10 cancelled, 100-199 the input, 200-299 numerics, 300-399 design rules,
-900 and up a defect of ours. ``exit_code`` is what the command line ends with.
+900 and up a defect of ours. ``exit_code`` is what the command line ends with;
+of a ``defect`` the log keeps the calls that led to it.
 """
 
 
@@ -9,6 +10,7 @@ class BladesmithError(Exception):
     """Anything that is told to the user in one line."""
 
     exit_code = 1
+    defect = False
 
 
 class SetupError(BladesmithError):
@@ -41,6 +43,8 @@ class DesignRuleError(BladesmithError):
 
 class InternalError(BladesmithError):
     """A defect of Bladesmith."""
+
+    defect = True
 
 
 _RANGES = (

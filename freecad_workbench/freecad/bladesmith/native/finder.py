@@ -7,8 +7,11 @@ folder of a checkout; the ``lib`` folder of an installation; the system's librar
 import ctypes
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
+from sysconfig import get_platform
 
+from .. import __version__
 from .errors import SetupError
 
 ABI_VERSION = 1
@@ -35,8 +38,8 @@ def _candidates() -> list[str]:
     return [str(file) for file in files if file.is_file()] + _file_names()
 
 
-def load() -> ctypes.CDLL:
-    """The loaded library, its ABI version checked.
+def load(calls: Iterable[str] = ()) -> ctypes.CDLL:
+    """The loaded library, its ABI version checked, with all of ``calls``.
 
     Raises :class:`SetupError` where there is none, or one of another version.
     """
@@ -48,22 +51,40 @@ def load() -> ctypes.CDLL:
         except OSError as reason:
             reasons.append(str(reason))
             continue
-        return _checked(library, name)
+        return _checked(library, name, calls)
     raise SetupError(
-        f"the library of Bladesmith was not found ({'; '.join(reasons)}): run 'make build' in the "
-        "checkout, or name the file in the environment variable BLADESMITH_LIBRARY"
+        f"the library of Bladesmith was not found ({'; '.join(reasons)}): {_remedy()}, or name the "
+        "file in the environment variable BLADESMITH_LIBRARY"
     )
 
 
-def _checked(library: ctypes.CDLL, name: str) -> ctypes.CDLL:
+def _checked(library: ctypes.CDLL, name: str, calls: Iterable[str]) -> ctypes.CDLL:
     try:
         library.bladesmith_abi_version.restype = ctypes.c_uint32
         found = library.bladesmith_abi_version()
     except AttributeError:
-        raise SetupError(f"{name} is not the library of Bladesmith") from None
+        raise SetupError(f"{name} is not the library of Bladesmith: {_remedy()}") from None
     if found != ABI_VERSION:
         raise SetupError(
-            f"{name} has C interface {found}, this package needs {ABI_VERSION}: "
-            "run 'make build' in the checkout, or install both from one release"
+            f"{name} has C interface {found}, this package needs {ABI_VERSION}: {_remedy()}, "
+            "so that both are of one release"
+        )
+    missing = [call for call in calls if not hasattr(library, call)]
+    if missing:
+        raise SetupError(
+            f"{name} is older than this package, it has no {missing[0]}: {_remedy()}, "
+            "so that both are of one release"
         )
     return library
+
+
+def _remedy() -> str:
+    """What brings the library, by where this package lies."""
+    if (_PACKAGE_ROOT.parent / "Cargo.toml").is_file():
+        return f"run 'make build' in {_PACKAGE_ROOT.parent}"
+    if (_PACKAGE_ROOT / "manifest.txt").is_file():
+        return "run 'make install' again in Bladesmith's sources"
+    return (
+        f"install the add-on archive bladesmith-{__version__}-freecad-{get_platform()}.zip, which "
+        "holds it, by unpacking it into FreeCAD's folder Mod"
+    )

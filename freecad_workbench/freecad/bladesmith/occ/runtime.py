@@ -5,10 +5,13 @@ FreeCAD must come before numpy: the other order crashes on Debian 12.
 """
 
 import importlib
+import logging
 import os
 import sys
 
 from ..native.errors import SetupError
+
+_LOG = logging.getLogger(__name__)
 
 _FOLDERS = (
     "/usr/lib/freecad-python3/lib",
@@ -38,6 +41,8 @@ def part_module():
     part = importlib.import_module("Part")
     for name, value in _STEP_SETTINGS.items():
         part.setStaticValue(name, value)
+    release = ".".join(sys.modules["FreeCAD"].Version()[:3])
+    _LOG.info("FreeCAD %s, Open CASCADE %s", release, part.OCC_VERSION)
     return part
 
 

@@ -4,6 +4,7 @@ Other length units are read into millimetres; files are written as AP214 in mill
 """
 
 import gzip
+import logging
 import os
 import tempfile
 import zlib
@@ -11,12 +12,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Optional
 
+from .. import log
 from ..native.errors import InputError
 from . import attributes as step_attributes
 from .attributes import SolidAttributes
 from .decoration import decorated
 from .part21 import Part21Error, scan
 from .runtime import part_module
+
+_LOG = logging.getLogger(__name__)
 
 SUFFIXES = (".step", ".stp")
 
@@ -61,6 +65,7 @@ def read(path: str) -> StepPart:
 
     Raises :class:`InputError` where it is no STEP file, cannot be transferred or holds no solid.
     """
+    _LOG.info("STEP file: %s", log.sizes(path))
     data = _read_bytes(path)
     if not is_step(data):
         raise InputError(

@@ -2,17 +2,17 @@
 
 from dataclasses import dataclass, replace
 
-import matplotlib
+import numpy
+from matplotlib import cm, colors, rc_context
+from matplotlib.figure import Figure
 
-matplotlib.use("Agg")
-
-import numpy  # noqa: E402
-from matplotlib import colors, pyplot  # noqa: E402
-
-from ..occ.tessellation import Tessellation  # noqa: E402
-from . import raster, shading  # noqa: E402
-from .nodes import at_mesh_points  # noqa: E402
-from .refinement import refined  # noqa: E402
+from ..colours import palette
+from ..colours.nodes import at_mesh_points
+from ..colours.refinement import refined
+from ..colours.result import round_down
+from ..colours.scale import automatic
+from ..occ.tessellation import Tessellation
+from . import raster, shading
 
 _SIZE = (640, 620)
 """Largest width and height of one view, in pixels of the finished picture."""
@@ -23,8 +23,6 @@ _ELEVATION = 0.42
 _GAP, _TITLE, _FOOT = 24, 26, 30
 """Pixels between panels, above and below them."""
 
-_DISPLACEMENT_COLOURS = ("turbo", 0.06, 0.94)
-_DEVIATION_COLOURS = ("YlOrRd", 0.0, 1.0)
 _SMALLEST_MM = 1e-9
 _LONGEST_SIDE = 1 / 80
 """Longest side of a triangle that carries colours, relative to the part's diagonal."""
@@ -99,7 +97,7 @@ def exaggerated_picture(scene: Scene) -> tuple:
     moved = numpy.nan_to_num(scene.displacement_mm)
     size = numpy.linalg.norm(numpy.ptp(scene.hot.points, axis=0))
     largest = numpy.linalg.norm(moved, axis=1).max(initial=0)
-    scale = _round_down(0.08 * size / largest) if largest > 0 else 1.0
+    scale = round_down(0.08 * size / largest) if largest > 0 else 1.0
     mesh = replace(scene.hot, points=scene.hot.points + scale * moved)
     both = Scene(scene.hot, mesh, scene.displacement_mm, scene.deviation_mm)
     panels = []
@@ -115,19 +113,16 @@ def map_pictures(scene: Scene) -> dict:
     moved = numpy.linalg.norm(scene.displacement_mm, axis=1)
     missed = scene.deviation_mm
     return {
-        "displacement": _map_figure(
-            drawings, moved, _linear(moved), _DISPLACEMENT_COLOURS, "displacement, mm"
-        ),
-        "deviation": _map_figure(
-            drawings, missed, _logarithmic(missed), _DEVIATION_COLOURS, "deviation, mm"
-        ),
+        "displacement": _map_figure(drawings, moved, "sequential", "displacement, mm"),
+        "deviation": _map_figure(drawings, missed, "severity", "deviation, mm"),
     }
 
 
 def histogram_picture(nodes: dict, tolerance_mm: float):
     """Numbers of nodes by deviation and by displacement."""
-    with pyplot.rc_context(_FONT):
-        figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 2.9), dpi=_DPI)
+    with rc_context(_FONT):
+        figure = Figure(figsize=(10, 2.9), dpi=_DPI)
+        left, right = figure.subplots(1, 2)
         deviation = numpy.linalg.norm(nodes["deviations"], axis=1)
         deviation = numpy.maximum(deviation, _SMALLEST_MM)
         edges = numpy.geomspace(deviation.min() * 0.99, max(deviation.max() * 1.01, 1e-8), 60)
@@ -157,7 +152,7 @@ def _figure(images, colour_bar: bool):
     height = max(image.shape[0] for image in images) + _FOOT + _TITLE
     bar = 140 if colour_bar else 0
     total = sum(widths) + _GAP * (len(images) - 1) + bar
-    figure = pyplot.figure(figsize=(total / _DPI, height / _DPI), dpi=_DPI)
+    figure = Figure(figsize=(total / _DPI, height / _DPI), dpi=_DPI)
     left, axes = 0, []
     for width, image in zip(widths, images):
         place = (left / total, _FOOT / height, width / total, image.shape[0] / height)
@@ -171,7 +166,7 @@ def _figure(images, colour_bar: bool):
 
 
 def _panels(panels, camera: raster.Camera):
-    with pyplot.rc_context(_FONT):
+    with rc_context(_FONT):
         figure, axes, _ = _figure([image for image, _title in panels], colour_bar=False)
         for axis, (_image, title) in zip(axes, panels):
             axis.set_title(title, loc="center", color="#39424e")
@@ -179,17 +174,18 @@ def _panels(panels, camera: raster.Camera):
     return figure
 
 
-def _map_figure(drawings, values, scale, colour_range, label: str):
-    name, first, last = colour_range
-    whole = pyplot.get_cmap(name)
-    colour_map = colors.ListedColormap(whole(numpy.linspace(first, last, 256)))
+def _map_figure(drawings, values, name: str, label: str):
+    colour_map = colors.ListedColormap(palette.colours(name))
+    ends = automatic(values, signed=False, logarithmic=name == "severity")
+    normalise = colors.LogNorm if ends.logarithmic else colors.Normalize
+    scale = normalise(ends.low, ends.high, clip=True)
     images = [
         shading.map_image(drawing, values, lambda v: colour_map(scale(v))) for drawing in drawings
     ]
-    with pyplot.rc_context(_FONT):
+    with rc_context(_FONT):
         figure, axes, bar_axis = _figure(images, colour_bar=True)
         _scale_bar(axes[0], drawings[0].camera)
-        figure.colorbar(pyplot.cm.ScalarMappable(scale, colour_map), cax=bar_axis, label=label)
+        figure.colorbar(cm.ScalarMappable(scale, colour_map), cax=bar_axis, label=label)
     return figure
 
 
@@ -197,7 +193,7 @@ def _scale_bar(axis, camera: raster.Camera) -> None:
     """A bar of a round length below the picture."""
     pixel = camera.pixel_mm * shading.OVERSAMPLING
     width, height = camera.width / shading.OVERSAMPLING, camera.height / shading.OVERSAMPLING
-    length = _round_down(0.25 * width * pixel)
+    length = round_down(0.25 * width * pixel)
     start, row = 0.03 * width, height + 0.45 * _FOOT
     end = start + length / pixel
     axis.plot((start, end), (row, row), color="#39424e", linewidth=2, clip_on=False)
@@ -205,25 +201,6 @@ def _scale_bar(axis, camera: raster.Camera) -> None:
     axis.set(xlim=(-0.5, width - 0.5), ylim=(height - 0.5, -0.5))
 
 
-def _round_down(value: float) -> float:
-    """The next smaller of 1, 2, 5 times a power of ten."""
-    power = 10.0 ** numpy.floor(numpy.log10(value))
-    return float(max(step * power for step in (1, 2, 5) if step * power <= value * (1 + 1e-9)))
-
-
-def _linear(values):
-    largest = numpy.nanmax(values, initial=0)
-    return colors.Normalize(0, largest if largest > 0 else 1)
-
-
-def _logarithmic(values):
-    known = values[numpy.isfinite(values)]
-    top = max(float(known.max(initial=0)), 10 * _SMALLEST_MM)
-    bottom = max(float(numpy.quantile(known, 0.02)) if len(known) else 0, top / 1e4, _SMALLEST_MM)
-    return colors.LogNorm(bottom, max(top, 10 * bottom), clip=True)
-
-
 def save(figure, path: str) -> None:
-    """Writes a figure as PNG, the same bytes for the same picture, and forgets it."""
+    """Writes a figure as PNG, the same bytes for the same picture."""
     figure.savefig(path, metadata={"Software": None})
-    pyplot.close(figure)

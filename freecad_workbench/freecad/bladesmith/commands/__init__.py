@@ -1,0 +1,1 @@
+"""Commands of toolbar and menu, each named ``Bladesmith_<Name>``."""

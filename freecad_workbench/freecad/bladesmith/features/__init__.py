@@ -1,0 +1,1 @@
+"""Parametric document objects: properties in, shape and figures out. No window, no ctypes."""

@@ -1,0 +1,1 @@
+"""What Bladesmith does, once for command line and window: core and Open CASCADE joined."""

@@ -1,0 +1,648 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de">
+ <context>
+  <name>Bladesmith</name>
+  <message>
+   <source>A scale needs two numbers, the smaller one first, and both above zero where it is logarithmic.</source>
+   <translation>Eine Skala braucht zwei Zahlen, die kleinere zuerst, und beide über null, wo sie logarithmisch ist.</translation>
+  </message>
+  <message>
+   <source>Angle, °</source>
+   <translation>Winkel, °</translation>
+  </message>
+  <message>
+   <source>Automatic scale</source>
+   <translation>Automatische Skala</translation>
+  </message>
+  <message>
+   <source>Checking …</source>
+   <translation>Wird geprüft …</translation>
+  </message>
+  <message>
+   <source>Choose a file</source>
+   <translation>Datei wählen</translation>
+  </message>
+  <message>
+   <source>Choose a file with displacements, or a result of the FEM workbench.</source>
+   <translation>Eine Datei mit Verschiebungen oder ein Ergebnis des FEM-Arbeitsbereichs wählen.</translation>
+  </message>
+  <message>
+   <source>Colours</source>
+   <translation>Farben</translation>
+  </message>
+  <message>
+   <source>Deviation</source>
+   <translation>Abweichung</translation>
+  </message>
+  <message>
+   <source>Displacement</source>
+   <translation>Verschiebung</translation>
+  </message>
+  <message>
+   <source>Displacement X</source>
+   <translation>Verschiebung X</translation>
+  </message>
+  <message>
+   <source>Displacement Y</source>
+   <translation>Verschiebung Y</translation>
+  </message>
+  <message>
+   <source>Displacement Z</source>
+   <translation>Verschiebung Z</translation>
+  </message>
+  <message>
+   <source>Drawing the report …</source>
+   <translation>Bericht wird gezeichnet …</translation>
+  </message>
+  <message>
+   <source>Edge</source>
+   <translation>Kante</translation>
+  </message>
+  <message>
+   <source>Edges of the input</source>
+   <translation>Kanten der Eingabe</translation>
+  </message>
+  <message>
+   <source>Enlarged</source>
+   <translation>Vergrößert</translation>
+  </message>
+  <message>
+   <source>Faces</source>
+   <translation>Flächen</translation>
+  </message>
+  <message>
+   <source>Faces without nodes: {0}</source>
+   <translation>Flächen ohne Knoten: {0}</translation>
+  </message>
+  <message>
+   <source>Face{0}, node {1}</source>
+   <translation>Face{0}, Knoten {1}</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Von</translation>
+  </message>
+  <message>
+   <source>Gap before, µm</source>
+   <translation>Spalt vorher, µm</translation>
+  </message>
+  <message>
+   <source>Gap, µm</source>
+   <translation>Spalt, µm</translation>
+  </message>
+  <message>
+   <source>Gaps and tangency by edge</source>
+   <translation>Spalte und Tangentialität je Kante</translation>
+  </message>
+  <message>
+   <source>Hold-out error: mean {0} mm, largest {1} mm</source>
+   <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm</translation>
+  </message>
+  <message>
+   <source>How much the angle of a tangent joint grew</source>
+   <translation>Um wie viel sich ein tangentialer Übergang geöffnet hat</translation>
+  </message>
+  <message>
+   <source>Input</source>
+   <translation>Eingabe</translation>
+  </message>
+  <message>
+   <source>Largest angle between the normals of both faces</source>
+   <translation>Größter Winkel zwischen den Normalen beider Flächen</translation>
+  </message>
+  <message>
+   <source>Largest deviation {0} mm, on {1}: beyond the tolerance of {2} mm</source>
+   <translation>Größte Abweichung {0} mm, auf {1}: außerhalb der Toleranz von {2} mm</translation>
+  </message>
+  <message>
+   <source>Largest deviation {0} mm, on {1}: within the tolerance of {2} mm</source>
+   <translation>Größte Abweichung {0} mm, auf {1}: innerhalb der Toleranz von {2} mm</translation>
+  </message>
+  <message>
+   <source>Largest displacement {0} at node {1} ({2})</source>
+   <translation>Größte Verschiebung {0} am Knoten {1} ({2})</translation>
+  </message>
+  <message>
+   <source>Largest distance among its curve and its traces on both faces</source>
+   <translation>Größter Abstand zwischen der Kurve und ihren Spuren auf beiden Flächen</translation>
+  </message>
+  <message>
+   <source>Largest gap {0} mm, at Edge{1}; {2} mm before</source>
+   <translation>Größter Spalt {0} mm, an Edge{1}; vorher {2} mm</translation>
+  </message>
+  <message>
+   <source>Length unit:</source>
+   <translation>Längeneinheit:</translation>
+  </message>
+  <message>
+   <source>Logarithmic</source>
+   <translation>Logarithmisch</translation>
+  </message>
+  <message>
+   <source>Mark the worst spot</source>
+   <translation>Schlechteste Stelle markieren</translation>
+  </message>
+  <message>
+   <source>Movement</source>
+   <translation>Bewegung</translation>
+  </message>
+  <message>
+   <source>Open report</source>
+   <translation>Bericht öffnen</translation>
+  </message>
+  <message>
+   <source>Opened, °</source>
+   <translation>Geöffnet, °</translation>
+  </message>
+  <message>
+   <source>Result</source>
+   <translation>Ergebnis</translation>
+  </message>
+  <message>
+   <source>Result of a morph</source>
+   <translation>Ergebnis eines Morphs</translation>
+  </message>
+  <message>
+   <source>Scale</source>
+   <translation>Maßstab</translation>
+  </message>
+  <message>
+   <source>Shape</source>
+   <translation>Form</translation>
+  </message>
+  <message>
+   <source>Steps</source>
+   <translation>Stufen</translation>
+  </message>
+  <message>
+   <source>Stopped; the object stays as it was.</source>
+   <translation>Abgebrochen; das Objekt bleibt, wie es war.</translation>
+  </message>
+  <message>
+   <source>The faces that it joins</source>
+   <translation>Die Flächen, die sie verbindet</translation>
+  </message>
+  <message>
+   <source>The gap of the input</source>
+   <translation>Der Spalt der Eingabe</translation>
+  </message>
+  <message>
+   <source>The inputs have changed since: recompute to see their result</source>
+   <translation>Die Eingaben haben sich seither geändert: neu berechnen, um ihr Ergebnis zu sehen</translation>
+  </message>
+  <message>
+   <source>The solid is not valid, or open</source>
+   <translation>Der Körper ist ungültig oder offen</translation>
+  </message>
+  <message>
+   <source>The solid is valid and closed</source>
+   <translation>Der Körper ist gültig und geschlossen</translation>
+  </message>
+  <message>
+   <source>Warning: {0}</source>
+   <translation>Warnung: {0}</translation>
+  </message>
+  <message>
+   <source>Zoom</source>
+   <translation>Zoomen</translation>
+  </message>
+  <message>
+   <source>Zoom to the chosen edge</source>
+   <translation>Auf die gewählte Kante zoomen</translation>
+  </message>
+  <message>
+   <source>a file</source>
+   <translation>einer Datei</translation>
+  </message>
+  <message>
+   <source>a larger value at Match within</source>
+   <translation>einen größeren Wert bei Zuordnen bis</translation>
+  </message>
+  <message>
+   <source>a tick at Extrapolate</source>
+   <translation>ein Häkchen bei Extrapolieren</translation>
+  </message>
+  <message>
+   <source>drawing</source>
+   <translation>Darstellung</translation>
+  </message>
+  <message>
+   <source>fitting all faces together</source>
+   <translation>alle Flächen gemeinsam anpassen</translation>
+  </message>
+  <message>
+   <source>fitting each face</source>
+   <translation>jede Fläche anpassen</translation>
+  </message>
+  <message>
+   <source>fitting without every tenth node</source>
+   <translation>ohne jeden zehnten Knoten anpassen</translation>
+  </message>
+  <message>
+   <source>measuring the result</source>
+   <translation>Ergebnis vermessen</translation>
+  </message>
+  <message>
+   <source>movement × {0}</source>
+   <translation>Bewegung × {0}</translation>
+  </message>
+  <message>
+   <source>not stated: millimetres</source>
+   <translation>ohne Angabe: Millimeter</translation>
+  </message>
+  <message>
+   <source>placing nodes on faces</source>
+   <translation>Knoten den Flächen zuordnen</translation>
+  </message>
+  <message>
+   <source>rebuilding the solid</source>
+   <translation>Körper neu aufbauen</translation>
+  </message>
+  <message>
+   <source>smooth</source>
+   <translation>stufenlos</translation>
+  </message>
+  <message>
+   <source>step {0} of {1}</source>
+   <translation>Schritt {0} von {1}</translation>
+  </message>
+  <message>
+   <source>to</source>
+   <translation>bis</translation>
+  </message>
+  <message>
+   <source>{0} nodes lie on the part, within {1} mm</source>
+   <translation>{0} Knoten liegen auf dem Teil, auf {1} mm genau</translation>
+  </message>
+  <message>
+   <source>{0} nodes of the mesh's surface lie on no face</source>
+   <translation>{0} Knoten der Netzoberfläche liegen auf keiner Fläche</translation>
+  </message>
+  <message>
+   <source>{0} of {1} tangent joints opened</source>
+   <translation>{0} von {1} tangentialen Übergängen haben sich geöffnet</translation>
+  </message>
+  <message>
+   <source>{0}: {1} nodes with a displacement, {2}</source>
+   <translation>{0}: {1} Knoten mit Verschiebung, {2}</translation>
+  </message>
+ </context>
+ <context>
+  <name>BladesmithPreferences</name>
+  <message>
+   <source>-1 takes the displacements away, 1 adds them</source>
+   <translation>-1 nimmt die Verschiebungen weg, 1 fügt sie hinzu</translation>
+  </message>
+  <message>
+   <source>Factor of a new morph</source>
+   <translation>Faktor eines neuen Morphs</translation>
+  </message>
+  <message>
+   <source>General</source>
+   <translation>Allgemein</translation>
+  </message>
+  <message>
+   <source>Largest deviation at a node that counts as success</source>
+   <translation>Größte Abweichung an einem Knoten, die noch als Erfolg gilt</translation>
+  </message>
+  <message>
+   <source>Morph</source>
+   <translation>Morphen</translation>
+  </message>
+  <message>
+   <source>Show a new result</source>
+   <translation>Neues Ergebnis zeigen</translation>
+  </message>
+  <message>
+   <source>The result does not depend on it</source>
+   <translation>Das Ergebnis hängt nicht davon ab</translation>
+  </message>
+  <message>
+   <source>Threads</source>
+   <translation>Threads</translation>
+  </message>
+  <message>
+   <source>Tolerance of a new morph, mm</source>
+   <translation>Toleranz eines neuen Morphs, mm</translation>
+  </message>
+  <message>
+   <source>Where the source stays to be seen</source>
+   <translation>Wo die Quelle zu sehen bleibt</translation>
+  </message>
+  <message>
+   <source>all processors</source>
+   <translation>alle Prozessoren</translation>
+  </message>
+  <message>
+   <source>alone</source>
+   <translation>allein</translation>
+  </message>
+  <message>
+   <source>beside its source</source>
+   <translation>neben seiner Quelle</translation>
+  </message>
+  <message>
+   <source>over its source</source>
+   <translation>über seiner Quelle</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_ExportStep</name>
+  <message>
+   <source>Export STEP with names</source>
+   <translation>STEP mit Namen exportieren</translation>
+  </message>
+  <message>
+   <source>Writes the selected solid as STEP; names and colours of faces are kept</source>
+   <translation>Schreibt den ausgewählten Körper als STEP; Namen und Farben der Flächen bleiben erhalten</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_ImportStep</name>
+  <message>
+   <source>Import STEP with names</source>
+   <translation>STEP mit Namen importieren</translation>
+  </message>
+  <message>
+   <source>Reads solids from a STEP file; names and colours of faces are kept</source>
+   <translation>Liest Körper aus einer STEP-Datei; Namen und Farben der Flächen bleiben erhalten</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_Morph</name>
+  <message>
+   <source>Morph</source>
+   <translation>Morphen</translation>
+  </message>
+  <message>
+   <source>Moves a solid by the displacements of a finite-element analysis</source>
+   <translation>Bewegt einen Körper um die Verschiebungen einer Finite-Elemente-Rechnung</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_OpenReport</name>
+  <message>
+   <source>Open report</source>
+   <translation>Bericht öffnen</translation>
+  </message>
+  <message>
+   <source>Opens the page about a morph: verdict, figures and pictures</source>
+   <translation>Öffnet die Seite über einen Morph: Urteil, Zahlen und Bilder</translation>
+  </message>
+ </context>
+ <context>
+  <name>Bladesmith_ShowResult</name>
+  <message>
+   <source>Show result</source>
+   <translation>Ergebnis zeigen</translation>
+  </message>
+  <message>
+   <source>Shows displacement and deviation as colours, and the joints edge by edge</source>
+   <translation>Zeigt Verschiebung und Abweichung als Farben und die Übergänge Kante für Kante</translation>
+  </message>
+ </context>
+ <context>
+  <name>MorphPanel</name>
+  <message>
+   <source>0 chooses from the size</source>
+   <translation>0 wählt nach der Größe</translation>
+  </message>
+  <message>
+   <source>1 adds the displacements, -1 takes them away</source>
+   <translation>1 fügt die Verschiebungen hinzu, -1 nimmt sie weg</translation>
+  </message>
+  <message>
+   <source>1 adds the displacements, -1 takes them away (hot to cold)</source>
+   <translation>1 fügt die Verschiebungen hinzu, -1 nimmt sie weg (heiß nach kalt)</translation>
+  </message>
+  <message>
+   <source>A file, or a result of the FEM workbench</source>
+   <translation>Eine Datei oder ein Ergebnis des FEM-Arbeitsbereichs</translation>
+  </message>
+  <message>
+   <source>A further factor on the displacements alone, as for a file with mixed units</source>
+   <translation>Ein weiterer Faktor auf die Verschiebungen allein, etwa für eine Datei mit gemischten Einheiten</translation>
+  </message>
+  <message>
+   <source>A second fit that does not see a tenth of the nodes tells the error between nodes</source>
+   <translation>Eine zweite Anpassung, die ein Zehntel der Knoten nicht sieht, zeigt den Fehler zwischen den Knoten</translation>
+  </message>
+  <message>
+   <source>Also fit without a tenth of the nodes</source>
+   <translation>Auch ohne ein Zehntel der Knoten anpassen</translation>
+  </message>
+  <message>
+   <source>Choose a file</source>
+   <translation>Datei wählen</translation>
+  </message>
+  <message>
+   <source>Computes the result; the panel stays open</source>
+   <translation>Berechnet das Ergebnis; das Fenster bleibt offen</translation>
+  </message>
+  <message>
+   <source>Displacement and deviation as colours</source>
+   <translation>Verschiebung und Abweichung als Farben</translation>
+  </message>
+  <message>
+   <source>Displacements</source>
+   <translation>Verschiebungen</translation>
+  </message>
+  <message>
+   <source>Displacements: CalculiX .frd or CSV, gzipped or not</source>
+   <translation>Verschiebungen: CalculiX .frd oder CSV, auch mit gzip gepackt</translation>
+  </message>
+  <message>
+   <source>Ends the work; the object stays as it was</source>
+   <translation>Beendet die Rechnung; das Objekt bleibt, wie es war</translation>
+  </message>
+  <message>
+   <source>Extend the field over areas without nodes, however far</source>
+   <translation>Das Feld über Bereiche ohne Knoten fortsetzen, wie weit es auch sei</translation>
+  </message>
+  <message>
+   <source>Extrapolate</source>
+   <translation>Extrapolieren</translation>
+  </message>
+  <message>
+   <source>Factor</source>
+   <translation>Faktor</translation>
+  </message>
+  <message>
+   <source>Field file</source>
+   <translation>Felddatei</translation>
+  </message>
+  <message>
+   <source>Fit</source>
+   <translation>Anpassung</translation>
+  </message>
+  <message>
+   <source>From</source>
+   <translation>Aus</translation>
+  </message>
+  <message>
+   <source>Hold</source>
+   <translation>Festhalten</translation>
+  </message>
+  <message>
+   <source>Hold-out test</source>
+   <translation>Rückhalteprobe</translation>
+  </message>
+  <message>
+   <source>How far a node may lie off the part; 0 chooses from its size</source>
+   <translation>Wie weit ein Knoten neben dem Teil liegen darf; 0 wählt nach dessen Größe</translation>
+  </message>
+  <message>
+   <source>Largest deviation at a node that counts as success</source>
+   <translation>Größte Abweichung an einem Knoten, die noch als Erfolg gilt</translation>
+  </message>
+  <message>
+   <source>Largest deviation that counts as success</source>
+   <translation>Größte Abweichung, die noch als Erfolg gilt</translation>
+  </message>
+  <message>
+   <source>Length unit</source>
+   <translation>Längeneinheit</translation>
+  </message>
+  <message>
+   <source>Length unit of the field</source>
+   <translation>Längeneinheit des Feldes</translation>
+  </message>
+  <message>
+   <source>Length unit of the field; if not stated, millimetres, and refused where its size shows another</source>
+   <translation>Längeneinheit des Feldes; ohne Angabe Millimeter, und abgelehnt, wo die Größe eine andere zeigt</translation>
+  </message>
+  <message>
+   <source>Match within</source>
+   <translation>Zuordnen bis</translation>
+  </message>
+  <message>
+   <source>Mesh file</source>
+   <translation>Netzdatei</translation>
+  </message>
+  <message>
+   <source>Morph</source>
+   <translation>Morphen</translation>
+  </message>
+  <message>
+   <source>Move areas far from any node too</source>
+   <translation>Auch Bereiche fern von allen Knoten bewegen</translation>
+  </message>
+  <message>
+   <source>Move only</source>
+   <translation>Nur bewegen</translation>
+  </message>
+  <message>
+   <source>Names or numbers of faces, by commas</source>
+   <translation>Namen oder Nummern von Flächen, durch Kommas getrennt</translation>
+  </message>
+  <message>
+   <source>On the displacements alone</source>
+   <translation>Auf die Verschiebungen allein</translation>
+  </message>
+  <message>
+   <source>Only these faces move</source>
+   <translation>Nur diese Flächen bewegen sich</translation>
+  </message>
+  <message>
+   <source>Open report</source>
+   <translation>Bericht öffnen</translation>
+  </message>
+  <message>
+   <source>Part</source>
+   <translation>Teil</translation>
+  </message>
+  <message>
+   <source>Result</source>
+   <translation>Ergebnis</translation>
+  </message>
+  <message>
+   <source>Result step of the file</source>
+   <translation>Ergebnisschritt der Datei</translation>
+  </message>
+  <message>
+   <source>Scale</source>
+   <translation>Maßstab</translation>
+  </message>
+  <message>
+   <source>Show result</source>
+   <translation>Ergebnis zeigen</translation>
+  </message>
+  <message>
+   <source>Solid</source>
+   <translation>Körper</translation>
+  </message>
+  <message>
+   <source>Solid of a source with several</source>
+   <translation>Körper einer Quelle mit mehreren</translation>
+  </message>
+  <message>
+   <source>Source</source>
+   <translation>Quelle</translation>
+  </message>
+  <message>
+   <source>Step</source>
+   <translation>Schritt</translation>
+  </message>
+  <message>
+   <source>Stop</source>
+   <translation>Abbrechen</translation>
+  </message>
+  <message>
+   <source>Take</source>
+   <translation>Holen</translation>
+  </message>
+  <message>
+   <source>Take the faces that are selected in the 3-D view</source>
+   <translation>Die in der 3-D-Ansicht ausgewählten Flächen übernehmen</translation>
+  </message>
+  <message>
+   <source>The deck the field was solved on</source>
+   <translation>Das Netz, auf dem gerechnet wurde</translation>
+  </message>
+  <message>
+   <source>The deck the field was solved on: an .frd keeps six digits only</source>
+   <translation>Das Netz, auf dem gerechnet wurde: eine .frd behält nur sechs Stellen</translation>
+  </message>
+  <message>
+   <source>The object whose solid is morphed</source>
+   <translation>Das Objekt, dessen Körper gemorpht wird</translation>
+  </message>
+  <message>
+   <source>The page with all figures and pictures</source>
+   <translation>Die Seite mit allen Zahlen und Bildern</translation>
+  </message>
+  <message>
+   <source>These faces stay where they are</source>
+   <translation>Diese Flächen bleiben, wo sie sind</translation>
+  </message>
+  <message>
+   <source>Tolerance</source>
+   <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>What the input holds</source>
+   <translation>Was die Eingabe enthält</translation>
+  </message>
+  <message>
+   <source>all faces</source>
+   <translation>alle Flächen</translation>
+  </message>
+  <message>
+   <source>none</source>
+   <translation>keine</translation>
+  </message>
+  <message>
+   <source>the covered one</source>
+   <translation>der abgedeckte</translation>
+  </message>
+  <message>
+   <source>the last</source>
+   <translation>der letzte</translation>
+  </message>
+  <message>
+   <source>…</source>
+   <translation>…</translation>
+  </message>
+ </context>
+</TS>

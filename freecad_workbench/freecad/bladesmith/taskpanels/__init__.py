@@ -1,0 +1,1 @@
+"""Task panels: what a user sees while making or changing an object."""

@@ -1,0 +1,165 @@
+//! Point inversion against dense sampling, which misses no minimum.
+
+use bladesmith::nurbs::{KnotVector, NurbsCurve, NurbsSurface};
+use bladesmith::ops::invert::{CurveInverter, SurfaceInverter};
+use glam::{DVec2, DVec3};
+
+/// Numbers in 0..1, the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn within(&mut self, a: f64, b: f64) -> f64 {
+        a + (b - a) * self.next()
+    }
+
+    fn vector(&mut self, size: f64) -> DVec3 {
+        DVec3::new(self.within(-size, size), self.within(-size, size), self.within(-size, size))
+    }
+}
+
+fn knots(random: &mut Random, degree: usize, spans: usize) -> KnotVector {
+    let mut breaks = vec![0.0];
+    for _ in 0..spans {
+        breaks.push(breaks[breaks.len() - 1] + random.within(0.1, 1.0));
+    }
+    KnotVector::clamped(degree, &breaks).unwrap()
+}
+
+fn weights(random: &mut Random, n: usize, rational: bool) -> Option<Vec<f64>> {
+    rational.then(|| (0..n).map(|_| random.within(0.3, 3.0)).collect())
+}
+
+fn random_curve(random: &mut Random, degree: usize, rational: bool) -> NurbsCurve<DVec3> {
+    let knots = knots(random, degree, 6);
+    let poles: Vec<DVec3> = (0..knots.len()).map(|_| random.vector(5.0)).collect();
+    let weights = weights(random, poles.len(), rational);
+    NurbsCurve::new(knots, poles, weights).unwrap()
+}
+
+fn random_surface(random: &mut Random, degrees: [usize; 2], rational: bool) -> NurbsSurface {
+    let (ku, kv) = (knots(random, degrees[0], 4), knots(random, degrees[1], 3));
+    let (n, m) = (ku.len(), kv.len());
+    let poles: Vec<DVec3> = (0..n * m)
+        .map(|k| DVec3::new((k / m) as f64 * 2.0, (k % m) as f64 * 2.0, 0.0) + random.vector(1.5))
+        .collect();
+    let weights = weights(random, n * m, rational);
+    NurbsSurface::new(ku, kv, poles, weights).unwrap()
+}
+
+/// Parameters between two others, evenly.
+fn even(a: f64, b: f64, n: usize) -> impl Iterator<Item = f64> + Clone {
+    (0..=n).map(move |i| a + (b - a) * i as f64 / n as f64)
+}
+
+#[test]
+fn no_sample_of_a_curve_is_nearer_than_the_foot() {
+    let mut random = Random(1);
+    for case in 0..40 {
+        let curve = random_curve(&mut random, 1 + case % 5, case % 3 == 0);
+        let inverter = CurveInverter::new(&curve).unwrap();
+        let (a, b) = curve.knots().domain();
+        let samples: Vec<DVec3> = even(a, b, 4000).map(|t| curve.point(t)).collect();
+        for _ in 0..250 {
+            let p = random.vector(8.0);
+            let found = inverter.nearest(p);
+            let best = samples.iter().map(|s| s.distance(p)).fold(f64::MAX, f64::min);
+            assert!(found.distance <= best + 1e-9, "curve {case}: {found:?} for {p}, but {best} is possible");
+            assert!(curve.point(found.at).distance(found.point) < 1e-12, "curve {case}: {found:?}");
+            assert!((found.point.distance(p) - found.distance).abs() < 1e-12, "curve {case}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn no_sample_of_a_surface_is_nearer_than_the_foot() {
+    let mut random = Random(2);
+    for (case, degrees) in [[1, 1], [2, 3], [3, 3], [5, 2], [3, 4], [3, 3]].into_iter().enumerate() {
+        let surface = random_surface(&mut random, degrees, case % 2 == 1);
+        let inverter = SurfaceInverter::new(&surface).unwrap();
+        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+        let grid = even(u0, u1, 150).flat_map(|u| even(v0, v1, 150).map(move |v| (u, v)));
+        let samples: Vec<DVec3> = grid.map(|(u, v)| surface.point(u, v)).collect();
+        for _ in 0..200 {
+            let p = random.vector(8.0) + DVec3::new(6.0, 6.0, 0.0);
+            let found = inverter.nearest(p);
+            let best = samples.iter().map(|s| s.distance(p)).fold(f64::MAX, f64::min);
+            assert!(found.distance <= best + 1e-9, "{case}: {found:?} for {p}, but {best} is possible");
+            assert!(surface.point(found.at.x, found.at.y).distance(found.point) < 1e-12, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn feet_of_points_off_the_surface_are_where_they_came_from() {
+    let mut random = Random(3);
+    let surface = random_surface(&mut random, [3, 3], false);
+    let inverter = SurfaceInverter::new(&surface).unwrap();
+    let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+    for _ in 0..2000 {
+        let uv = DVec2::new(random.within(u0, u1), random.within(v0, v1));
+        let d = surface.derivatives(uv.x, uv.y);
+        let p = d.s + d.normal().normalize() * random.within(-1e-3, 1e-3);
+        let found = inverter.nearest(p);
+        assert!(found.distance <= p.distance(d.s) + 1e-12, "{found:?} instead of {uv}");
+        assert!(found.point.distance(d.s) < 1e-8, "{found:?} instead of {uv} for {p}");
+    }
+}
+
+/// A full circle of nine poles.
+fn circle() -> NurbsCurve<DVec2> {
+    let s = std::f64::consts::FRAC_1_SQRT_2;
+    let at = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)];
+    let poles = at.map(|(x, y)| DVec2::new(x as f64, y as f64)).to_vec();
+    let flat = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0].to_vec();
+    let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { s }).collect();
+    NurbsCurve::new(KnotVector::new(2, flat).unwrap(), poles, Some(weights)).unwrap()
+}
+
+#[test]
+fn ties_are_all_reported() {
+    let parabola = NurbsCurve::new(
+        KnotVector::clamped(2, &[0.0, 1.0]).unwrap(),
+        vec![DVec2::new(-1.0, 1.0), DVec2::new(0.0, -1.0), DVec2::new(1.0, 1.0)],
+        None,
+    )
+    .unwrap();
+    let found = CurveInverter::new(&parabola).unwrap().nearest_all(DVec2::new(0.0, 2.0), 1e-9);
+    assert_eq!(found.len(), 2, "{found:?}");
+    for f in &found {
+        // x² + (x² − 2)² is least where x² = 3/2, beyond the ends.
+        assert!((f.point.x.abs() - 1.0).abs() < 1e-12, "{f:?}");
+    }
+    // x² + (x² − 1)² is least where x² = 1/2.
+    let found = CurveInverter::new(&parabola).unwrap().nearest_all(DVec2::new(0.0, 1.0), 1e-9);
+    let expected = 0.5f64.sqrt();
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(found.iter().all(|f| (f.point.x.abs() - expected).abs() < 1e-7), "{found:?}");
+}
+
+#[test]
+fn the_centre_of_a_circle_is_equally_far_from_many_points() {
+    let inverter = CurveInverter::new(&circle()).unwrap();
+    assert!((inverter.nearest(DVec2::ZERO).distance - 1.0).abs() < 1e-12);
+    let all = inverter.nearest_all(DVec2::ZERO, 1e-9);
+    assert!(all.len() > 4 && all.iter().all(|f| (f.distance - 1.0).abs() < 1e-9));
+    let seam = inverter.nearest_all(DVec2::new(2.0, 0.0), 1e-9);
+    assert_eq!(seam.len(), 2, "both ends of a closed curve: {seam:?}");
+}
+
+#[test]
+fn a_degenerate_side_is_one_point() {
+    // A triangle: the side v = 1 is the point (0, 0, 1).
+    let k = || KnotVector::clamped(1, &[0.0, 1.0]).unwrap();
+    let apex = DVec3::Z;
+    let surface = NurbsSurface::new(k(), k(), vec![DVec3::ZERO, apex, DVec3::X, apex], None).unwrap();
+    let inverter = SurfaceInverter::new(&surface).unwrap();
+    let above = inverter.nearest(DVec3::new(0.1, 0.3, 4.0));
+    assert!((above.point - apex).length() < 1e-9, "{above:?}");
+    let below = inverter.nearest(DVec3::new(0.25, 1.0, 0.25));
+    assert!((below.distance - 1.0).abs() < 1e-12, "{below:?}");
+}

@@ -1,0 +1,236 @@
+//! The package as C and C++ programs meet it: installed, found by CMake and pkg-config, linked
+//! shared and static; bad arguments and real morphs, plain, under the address sanitizer and under
+//! valgrind; and removed again without a trace.
+
+use bladesmith::{brep, fe, morph};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+#[path = "consumer/package.rs"]
+mod package;
+
+use package::{Build, configure, data, install, lossy, prefix, root, run, scratch, succeed, valgrind};
+
+/// Programs that check themselves.
+const CHECKS: [&str; 3] = ["abi_errors", "threads", "owners"];
+/// The examples.
+const EXAMPLES: [&str; 2] = ["morph_c", "morph_cpp"];
+
+fn on_the_bar(command: &mut Command) -> &mut Command {
+    command.arg(data("bar.brep")).arg(data("bar.frd.gz"))
+}
+
+/// Runs an example on the bar with factor -1; the report it prints and the text of the new part.
+fn morph_bar(command: &mut Command, folder: &Path) -> (Value, String) {
+    let cold = folder.join("cold.brep");
+    let _ = fs::remove_file(&cold);
+    let output = succeed(on_the_bar(command).arg("-1").arg(&cold));
+    (
+        serde_json::from_str(&lossy(&output.stdout)).expect("it prints the report as JSON"),
+        fs::read_to_string(cold).expect("it wrote the part"),
+    )
+}
+
+#[test]
+fn programs_find_all_as_documented() {
+    for program in CHECKS.iter().flat_map(|name| Build::Plain.programs(name)) {
+        succeed(on_the_bar(&mut Command::new(program)));
+    }
+}
+
+#[test]
+fn programs_are_clean_under_the_address_sanitizer() {
+    let folder = scratch("asan");
+    for program in CHECKS.iter().flat_map(|name| Build::Sanitized.programs(name)) {
+        succeed(on_the_bar(&mut Command::new(program)));
+    }
+    for program in EXAMPLES.iter().flat_map(|name| Build::Sanitized.programs(name)) {
+        morph_bar(&mut Command::new(program), &folder);
+    }
+}
+
+#[test]
+fn programs_are_clean_under_valgrind() {
+    let folder = scratch("valgrind");
+    for [shared, _] in CHECKS.map(|name| Build::Plain.programs(name)) {
+        succeed(on_the_bar(&mut valgrind(&shared)));
+    }
+    for [_, linked] in EXAMPLES.map(|name| Build::Plain.programs(name)) {
+        morph_bar(&mut valgrind(&linked), &folder);
+    }
+}
+
+#[test]
+fn clang_takes_headers_and_programs() {
+    if Command::new("clang++").arg("--version").output().is_err() {
+        println!("skipped: clang is not installed");
+        return;
+    }
+    for program in CHECKS.iter().flat_map(|name| Build::Clang.programs(name)) {
+        succeed(on_the_bar(&mut Command::new(program)));
+    }
+}
+
+#[test]
+fn the_examples_give_the_part_of_the_crate_with_any_number_of_threads() {
+    let folder = scratch("examples");
+    let text = fs::read_to_string(data("bar.brep")).expect("it is committed");
+    let part = brep::parse("bar.brep", &text).expect("the bar is sound");
+    let field = fe::read(&data("bar.frd.gz"), &fe::ReadOptions::default()).expect("so is its field");
+    let options = morph::Options { factor: -1.0, ..morph::Options::default() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread starts");
+    let expected =
+        pool.install(|| morph::morph(&part, &field, &options, &|_, _| true)).expect("the bar morphs");
+    for program in EXAMPLES.iter().flat_map(|name| Build::Plain.programs(name)) {
+        let (report, cold) = morph_bar(&mut Command::new(&program), &folder);
+        assert!(cold == expected.brep.write(), "the part of {} differs", program.display());
+        assert_eq!(report["solid"]["closed"], true, "{report}");
+        assert_eq!(report["input"]["factor"], -1.0);
+        assert_eq!(report["faces"].as_array().map(Vec::len), Some(7));
+        let deviation = report["deviation_mm"]["max"].as_f64().expect("a largest deviation");
+        assert!(deviation > 0.0 && deviation < 1e-3, "largest deviation {deviation} mm");
+    }
+}
+
+#[test]
+fn the_examples_say_what_is_wrong() {
+    let missing = ["no such.brep", "no such.frd", "1", "out.brep"];
+    for program in EXAMPLES.iter().flat_map(|name| Build::Plain.programs(name)) {
+        for arguments in [&missing[..], &[]] {
+            let output = run(Command::new(&program).args(arguments));
+            let said = lossy(&output.stderr);
+            let expected = if arguments.is_empty() { "usage: morph" } else { "no such.brep cannot be read" };
+            assert!(!output.status.success() && said.contains(expected), "{program:?}: {said}");
+        }
+    }
+}
+
+#[test]
+fn the_examples_are_short_and_build_as_they_stand() {
+    for (language, file) in [("c", "morph.c"), ("cpp", "morph.cpp")] {
+        let project = root().join("examples").join(language);
+        let source = fs::read_to_string(project.join(file)).expect("it is committed");
+        assert!(source.lines().count() < 100, "{file} has {} lines", source.lines().count());
+        let build = scratch(&format!("example-{language}"));
+        succeed(&mut configure(&project, &build, prefix()));
+        succeed(Command::new("cmake").arg("--build").arg(&build));
+        morph_bar(&mut Command::new(build.join("morph")), &build);
+    }
+}
+
+#[test]
+fn a_field_from_arrays_grows_the_part_by_its_third_power() {
+    let [shared, _] = Build::Plain.programs("scale_part");
+    let output = succeed(on_the_bar(&mut Command::new(shared)));
+    let report: Value = serde_json::from_str(&lossy(&output.stdout)).expect("it prints the report");
+    let volume = |when: &str| report["solid"]["volume_mm3"][when].as_f64().expect("a volume");
+    let ratio = volume("after") / volume("before");
+    assert!((ratio / 1.001_f64.powi(3) - 1.0).abs() < 1e-7, "volume grows by {ratio}");
+    assert_eq!(report["input"]["field"], "growth");
+}
+
+/// Configures a project that asks for a release; what CMake says.
+fn asks_for(release: &str) -> (bool, String) {
+    let folder = scratch(&format!("release-{release}"));
+    let project = format!(
+        "cmake_minimum_required(VERSION 3.16)\nproject(asks NONE)\n\
+         find_package(bladesmith {release} CONFIG REQUIRED)\nmessage(STATUS \"found ${{bladesmith_VERSION}}\")\n"
+    );
+    fs::write(folder.join("CMakeLists.txt"), project).expect("the scratch folder is writable");
+    let output = run(&mut configure(&folder, &folder.join("build"), prefix()));
+    (output.status.success(), lossy(&output.stdout) + &lossy(&output.stderr))
+}
+
+#[test]
+fn cmake_takes_the_series_that_is_installed_and_no_other() {
+    let release = env!("CARGO_PKG_VERSION");
+    let series = release.rsplit_once('.').expect("three numbers").0;
+    for wanted in [release, series] {
+        let (found, said) = asks_for(wanted);
+        assert!(found && said.contains(&format!("found {release}")), "{wanted}: {said}");
+    }
+    for wanted in [&format!("{series}.99"), "0.99", "7.0"] {
+        let (found, said) = asks_for(wanted);
+        assert!(!found && said.contains(&format!("version: {release}")), "{wanted}: {said}");
+    }
+}
+
+/// The flags that pkg-config gives for the package below `prefix`, as a shell would split them.
+fn pkg_config(prefix: &Path, options: &[&str]) -> String {
+    let mut ask = Command::new("pkg-config");
+    ask.env("PKG_CONFIG_PATH", prefix.join("lib/pkgconfig")).args(options);
+    lossy(&succeed(ask.arg("bladesmith")).stdout).trim().to_owned()
+}
+
+/// Compiles an example with the flags of pkg-config.
+fn compile_by_pkg_config(prefix: &Path, options: &[&str], folder: &Path) -> PathBuf {
+    let program = folder.join("morph");
+    let source = root().join("examples/c/morph.c");
+    let command = format!(
+        "gcc -std=c99 -Wall -Wextra -pedantic -Werror '{}' -o '{}' {}",
+        source.display(),
+        program.display(),
+        pkg_config(prefix, options)
+    );
+    succeed(Command::new("sh").args(["-c", &command]));
+    program
+}
+
+#[test]
+fn pkg_config_finds_the_package_shared_and_static() {
+    assert_eq!(pkg_config(prefix(), &["--modversion"]), env!("CARGO_PKG_VERSION"));
+    let folder = scratch("pkg-config-shared");
+    let shared = compile_by_pkg_config(prefix(), &["--cflags", "--libs"], &folder);
+    morph_bar(Command::new(shared).env("LD_LIBRARY_PATH", prefix().join("lib")), &folder);
+
+    // Beside a shared library the linker takes that one: here is none.
+    let folder = scratch("pkg-config-static");
+    let archive_only = folder.join("prefix");
+    install(&archive_only);
+    for name in ["libbladesmith.so", "libbladesmith.so.1"] {
+        fs::remove_file(archive_only.join("lib").join(name)).expect("it was installed");
+    }
+    let linked = compile_by_pkg_config(&archive_only, &["--static", "--cflags", "--libs"], &folder);
+    morph_bar(&mut Command::new(linked), &folder);
+}
+
+/// All files, links and folders below a folder, by their paths in it.
+fn tree(folder: &Path) -> BTreeSet<PathBuf> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(&next).expect("a folder that can be read") {
+            let path = entry.expect("its entries").path();
+            if path.is_dir() && !path.is_symlink() {
+                open.push(path.clone());
+            }
+            found.insert(path.strip_prefix(folder).expect("it lies below").to_owned());
+        }
+    }
+    found
+}
+
+#[test]
+fn uninstall_removes_what_install_put_there_and_nothing_else() {
+    let target = scratch("uninstall");
+    fs::create_dir_all(target.join("lib/pkgconfig")).expect("the scratch folder is writable");
+    fs::create_dir_all(target.join("share")).expect("the scratch folder is writable");
+    fs::write(target.join("lib/libother.so"), "").expect("the scratch folder is writable");
+    let before = tree(&target);
+    install(&target);
+    let installed = tree(&target);
+    install(&target);
+    assert_eq!(tree(&target), installed, "a second installation leaves the same files");
+    let compiled = target.join("share/bladesmith/freecad/bladesmith/__pycache__");
+    fs::create_dir_all(&compiled).expect("Python may compile there");
+    fs::write(compiled.join("api.pyc"), "").expect("Python may compile there");
+    let uninstall = || run(Command::new(root().join("cmake/uninstall.sh")).arg(&target));
+    let output = uninstall();
+    assert!(output.status.success(), "{}", lossy(&output.stderr));
+    assert_eq!(tree(&target), before);
+    let again = uninstall();
+    assert!(!again.status.success() && lossy(&again.stderr).contains("is not installed there"));
+}
