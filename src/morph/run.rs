@@ -306,6 +306,10 @@ fn fixed_faces(hot: &Hot, options: &Options) -> Result<Vec<bool>> {
             });
         }
     }
+    if let Some(f) = options.moving_faces.iter().find(|f| options.fixed_faces.contains(f)) {
+        let why = format!("face {f} is asked both to move and to stay; leave it out of one list");
+        return Err(Error::Argument { name: "faces", why });
+    }
     let moves = |f: usize| options.moving_faces.is_empty() || options.moving_faces.contains(&f);
     let fixed: Vec<bool> = (1..=count).map(|f| !moves(f) || options.fixed_faces.contains(&f)).collect();
     for patch in &hot.patches {

@@ -235,7 +235,7 @@ fn warn_of_joints(edges: &[EdgeReport], tolerance_mm: f64, warnings: &mut Vec<St
             .collect();
         format!("{}{}", named.join(", "), if chosen.len() > named.len() { ", …" } else { "" })
     };
-    for (held, what) in [(true, "beside held faces, as the field asks"), (false, "elsewhere")] {
+    for (held, what) in [(true, "beside held faces"), (false, "elsewhere")] {
         let chosen: Vec<&EdgeReport> =
             edges.iter().filter(|e| e.tangent && e.held == held && opened(e) > OPENED_DEG).collect();
         if !chosen.is_empty() {

@@ -135,13 +135,7 @@ impl<P: Point> NurbsCurve<P> {
     /// [`Error::Numerics`], with the bound, when the tolerance cannot be met; [`Error::Spline`] for
     /// degree 1 and curves that jump.
     pub fn reduced(&self, tolerance: f64) -> Result<(Self, f64)> {
-        let mut change = 0.0;
-        let curve = self.reshape(|knots, net| {
-            let (knots, moved) = reduce(knots, net, tolerance)?;
-            change = moved;
-            Ok(knots)
-        })?;
-        Ok((curve, change))
+        self.reshape_within(|knots, net| reduce(knots, net, tolerance))
     }
 }
 
@@ -159,13 +153,7 @@ impl NurbsSurface {
     /// # Errors
     /// As there.
     pub fn reduced(&self, direction: Direction, tolerance: f64) -> Result<(Self, f64)> {
-        let mut change = 0.0;
-        let surface = self.reshape(direction, |knots, net| {
-            let (knots, moved) = reduce(knots, net, tolerance)?;
-            change = moved;
-            Ok(knots)
-        })?;
-        Ok((surface, change))
+        self.reshape_within(direction, |knots, net| reduce(knots, net, tolerance))
     }
 }
 

@@ -183,10 +183,18 @@ impl<P: Point> NurbsCurve<P> {
         &self,
         change: impl FnOnce(&KnotVector, &mut Net<P>) -> Result<KnotVector>,
     ) -> Result<Self> {
+        Ok(self.reshape_within(|knots, net| Ok((change(knots, net)?, 0.0)))?.0)
+    }
+
+    /// A change that moves the shape, with the bound of that movement.
+    pub(super) fn reshape_within(
+        &self,
+        change: impl FnOnce(&KnotVector, &mut Net<P>) -> Result<(KnotVector, f64)>,
+    ) -> Result<(Self, f64)> {
         let mut net = Net::new(1, self.poles(), self.weights());
-        let knots = change(self.knots(), &mut net)?;
+        let (knots, moved) = change(self.knots(), &mut net)?;
         let (poles, weights) = net.project();
-        Self::new(knots, poles, weights)
+        Ok((Self::new(knots, poles, weights)?, moved))
     }
 
     /// The same curve with the knot `t` inserted so many more times.
@@ -231,18 +239,28 @@ impl NurbsSurface {
         direction: Direction,
         change: impl FnOnce(&KnotVector, &mut Net<DVec3>) -> Result<KnotVector>,
     ) -> Result<Self> {
+        Ok(self.reshape_within(direction, |knots, net| Ok((change(knots, net)?, 0.0)))?.0)
+    }
+
+    /// A change that moves the shape, with the bound of that movement.
+    pub(super) fn reshape_within(
+        &self,
+        direction: Direction,
+        change: impl FnOnce(&KnotVector, &mut Net<DVec3>) -> Result<(KnotVector, f64)>,
+    ) -> Result<(Self, f64)> {
         let mut net = Net::new(self.knots_v().len(), self.poles(), self.weights());
         let (mut ku, mut kv) = (self.knots_u().clone(), self.knots_v().clone());
+        let moved;
         match direction {
-            Direction::U => ku = change(&ku, &mut net)?,
+            Direction::U => (ku, moved) = change(&ku, &mut net)?,
             Direction::V => {
                 net = net.transposed();
-                kv = change(&kv, &mut net)?;
+                (kv, moved) = change(&kv, &mut net)?;
                 net = net.transposed();
             }
         }
         let (poles, weights) = net.project();
-        Self::new(ku, kv, poles, weights)
+        Ok((Self::new(ku, kv, poles, weights)?, moved))
     }
 
     /// The same surface with the knot `t` inserted so many more times along `direction`.

@@ -97,13 +97,7 @@ impl<P: Point> NurbsCurve<P> {
     /// jumps at it.
     pub fn remove_knot(&self, t: f64, times: usize, tolerance: f64) -> Result<(Self, f64)> {
         check(self.knots(), t, times)?;
-        let mut change = 0.0;
-        let curve = self.reshape(|knots, net| {
-            let (knots, moved) = remove(knots, net, t, times, tolerance)?;
-            change = moved;
-            Ok(knots)
-        })?;
-        Ok((curve, change))
+        self.reshape_within(|knots, net| remove(knots, net, t, times, tolerance))
     }
 }
 
@@ -120,13 +114,7 @@ impl NurbsSurface {
         tolerance: f64,
     ) -> Result<(Self, f64)> {
         check(self.knots(direction), t, times)?;
-        let mut change = 0.0;
-        let surface = self.reshape(direction, |knots, net| {
-            let (knots, moved) = remove(knots, net, t, times, tolerance)?;
-            change = moved;
-            Ok(knots)
-        })?;
-        Ok((surface, change))
+        self.reshape_within(direction, |knots, net| remove(knots, net, t, times, tolerance))
     }
 }
 

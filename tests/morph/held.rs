@@ -86,6 +86,15 @@ fn numbers_of_no_face_are_refused() {
 }
 
 #[test]
+fn a_face_cannot_both_move_and_stay() {
+    let brep = solid("cylinder");
+    let options = Options { moving_faces: vec![1, 2], fixed_faces: vec![2], ..Options::default() };
+    let error = refusal(&brep, &displaced(&brep), &options);
+    assert_eq!(error.code(), 1);
+    assert_says(&error.to_string(), &["face 2", "move", "stay"]);
+}
+
+#[test]
 fn a_face_on_the_surface_of_a_held_one_cannot_move() {
     let brep = solid("plate");
     let hot = hot(&brep);

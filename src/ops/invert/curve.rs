@@ -3,24 +3,15 @@
 //! minimisation).
 
 use super::bezier::{CurvePiece, curve_pieces};
-use super::{HALVINGS, Nearest, Pending, SAME, distinct, stationary};
+use super::search::{BEND_MARGIN, Below, METRIC_MARGIN, SLACK, Search, Shape, stationary};
+use super::{Nearest, SAME};
 use crate::error::Result;
 use crate::nurbs::{NurbsCurve, Point};
-use std::collections::BinaryHeap;
 
 /// Places on a piece at which its derivatives are looked at.
 const SAMPLES: usize = 5;
-/// The smallest speed squared on a piece may be this fraction of the smallest one seen.
-const SPEED_MARGIN: f64 = 0.5;
-/// The largest second derivative on a piece may be this many times the largest one seen.
-const BEND_MARGIN: f64 = 1.5;
-/// Pieces are prepared so small that their size stays below this fraction of the distance up to
-/// which they are convex.
-const SLACK: f64 = 0.5;
 /// Halvings of a piece while preparing.
 const DEPTH: usize = 8;
-/// Pieces below this fraction of the coordinates are points.
-const SMALLEST: f64 = 1e-10;
 /// Newton steps at most.
 const STEPS: usize = 40;
 
@@ -51,15 +42,15 @@ impl<P: Point> Tube<P> {
         (r - self.chord * s).length()
     }
 
-    /// A lower bound of the distance to `p`.
-    fn nearest(&self, p: P) -> f64 {
-        (self.off_chord(p) - self.radius).max(0.0)
+    /// A lower bound of the squared distance to `p`.
+    fn nearest_squared(&self, p: P) -> f64 {
+        (self.off_chord(p) - self.radius).max(0.0).powi(2)
     }
 }
 
 /// A piece with its bounds.
 #[derive(Debug, Clone)]
-struct Arc<P> {
+pub struct Arc<P> {
     piece: CurvePiece<P>,
     tube: Tube<P>,
     /// Point and first derivative in the middle.
@@ -83,16 +74,12 @@ impl<P: Point> Arc<P> {
         }
         let [c, d, _] = curve.derivatives(0.5 * (a + b));
         let size = points.iter().map(|&x| (x - c).length()).fold(0.0, f64::max);
-        let convex = SPEED_MARGIN * speed / (BEND_MARGIN * bend).max(f64::MIN_POSITIVE);
+        let convex = METRIC_MARGIN * speed / (BEND_MARGIN * bend).max(f64::MIN_POSITIVE);
         Self { tube: Tube::new(&points), piece, middle: [c, d], size, convex, depth }
     }
 
     fn halves(self, curve: &NurbsCurve<P>) -> [Self; 2] {
         self.piece.halves().map(|half| Self::new(curve, half, self.depth + 1))
-    }
-
-    fn is_convex(&self, p: P) -> bool {
-        (p - self.middle[0]).length() + self.size < self.convex
     }
 
     fn start(&self, p: P) -> f64 {
@@ -156,110 +143,61 @@ impl<P: Point> CurveInverter<P> {
 
     /// The nearest point to `p`, globally.
     pub fn nearest(&self, p: P) -> Nearest<f64, P> {
-        let mut search = Search::new(&self.curve, p, None);
-        self.descend(&mut search);
-        search.best
+        self.search(p, None).best
     }
 
     /// All points of the curve that are as near to `p` as the nearest, to within `tie` (in the
     /// unit of the points), the nearest first. Where a whole stretch is, some of its points.
     pub fn nearest_all(&self, p: P, tie: f64) -> Vec<Nearest<f64, P>> {
-        let mut search = Search::new(&self.curve, p, Some(tie));
-        self.descend(&mut search);
-        search.ties()
+        self.search(p, Some(tie)).ties()
     }
 
-    fn descend(&self, search: &mut Search<'_, P>) {
+    fn search(&self, p: P, tie: Option<f64>) -> Search<'_, NurbsCurve<P>> {
         let inner = self.arcs.len() - 1;
-        let mut stack = [(0usize, 0.0f64); 64];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (at, bound) = stack[height];
-            if search.excludes(bound) {
-                continue;
-            }
-            if at >= inner {
-                search.visit(&self.arcs[at - inner]);
-                continue;
-            }
-            let child = |k: usize| (k, self.tubes[k].nearest(search.p));
-            let (a, b) = (child(2 * at + 1), child(2 * at + 2));
-            let (near, far) = if a.1 <= b.1 { (a, b) } else { (b, a) };
-            stack[height] = far;
-            stack[height + 1] = near;
-            height += 2;
-        }
-        search.finish();
+        let mut search = Search::new(&self.curve, 0.0, p, tie);
+        let below = |at: usize| match at.checked_sub(inner) {
+            None => Below::Nodes([2 * at + 1, 2 * at + 2]),
+            Some(arc) => Below::Pieces(&self.arcs[arc..=arc]),
+        };
+        search.descend(below, |at, p| self.tubes[at].nearest_squared(p));
+        search
     }
 }
 
-/// One query.
-struct Search<'a, P: Point> {
-    curve: &'a NurbsCurve<P>,
-    p: P,
-    best: Nearest<f64, P>,
-    tie: Option<f64>,
-    found: Vec<Nearest<f64, P>>,
-    rest: BinaryHeap<Pending<Arc<P>>>,
-}
+impl<P: Point> Shape for NurbsCurve<P> {
+    type At = f64;
+    type Point = P;
+    type Piece = Arc<P>;
 
-impl<'a, P: Point> Search<'a, P> {
-    fn new(curve: &'a NurbsCurve<P>, p: P, tie: Option<f64>) -> Self {
-        let best = Nearest { at: 0.0, point: P::default(), distance: f64::INFINITY };
-        Self { curve, p, best, tie, found: Vec::new(), rest: BinaryHeap::new() }
+    fn bound(arc: &Arc<P>, p: P) -> f64 {
+        arc.tube.nearest_squared(p)
     }
 
-    /// Whether nothing at so large a distance is wanted.
-    fn excludes(&self, distance: f64) -> bool {
-        match self.tie {
-            None => distance >= self.best.distance,
-            Some(tie) => distance > self.best.distance + tie,
-        }
+    fn is_convex(arc: &Arc<P>, p: P) -> bool {
+        (p - arc.middle[0]).length() + arc.size < arc.convex
     }
 
-    fn take(&mut self, found: Nearest<f64, P>) {
-        if found.distance < self.best.distance {
-            self.best = found;
-        }
-        if self.tie.is_some_and(|tie| found.distance <= self.best.distance + tie) {
-            self.found.push(found);
-        }
+    fn size(arc: &Arc<P>) -> f64 {
+        arc.size
     }
 
-    fn visit(&mut self, arc: &Arc<P>) {
-        if self.excludes(arc.tube.nearest(self.p)) {
-            return;
-        }
-        self.take(foot(self.curve, self.p, arc.start(self.p), arc.piece.range));
-        if !arc.is_convex(self.p) && arc.size > SMALLEST * (1.0 + self.p.length()) {
-            self.rest.push(Pending { bound: arc.tube.nearest(self.p), piece: arc.clone() });
-        }
+    fn foot(&self, arc: &Arc<P>, p: P) -> Nearest<f64, P> {
+        foot(self, p, arc.start(p), arc.piece.range)
     }
 
-    /// Halves the pieces on which there may be more minima.
-    fn finish(&mut self) {
-        for _ in 0..HALVINGS {
-            let Some(next) = self.rest.pop() else { break };
-            if self.excludes(next.bound) {
-                break;
-            }
-            next.piece.halves(self.curve).iter().for_each(|half| self.visit(half));
-        }
+    fn halves(&self, arc: Arc<P>) -> [Arc<P>; 2] {
+        arc.halves(self)
     }
 
-    fn ties(mut self) -> Vec<Nearest<f64, P>> {
-        let reach = self.best.distance + self.tie.unwrap_or(0.0);
-        self.found.retain(|f| f.distance <= reach);
-        self.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let (a, b) = self.curve.knots().domain();
-        // The ends of pieces are no minima of the curve.
-        self.found.retain(|f| {
-            let [c, d, _] = self.curve.derivatives(f.at);
-            let r = c - self.p;
-            stationary(f.at, (a, b), r.dot(d), r.length() * d.length())
-        });
-        distinct(self.found, |x, y| (x.at - y.at).abs() < SAME * (b - a))
+    fn is_minimum(&self, at: f64, p: P) -> bool {
+        let [c, d, _] = self.derivatives(at);
+        let r = c - p;
+        stationary(at, self.knots().domain(), r.dot(d), r.length() * d.length())
+    }
+
+    fn same(&self, a: f64, b: f64) -> bool {
+        let (first, last) = self.knots().domain();
+        (a - b).abs() < SAME * (last - first)
     }
 }
 

@@ -7,32 +7,23 @@
 //! its start.
 
 use super::bezier::{SurfacePiece, surface_pieces};
-use super::{HALVINGS, Nearest, Pending, SAME, distinct, stationary};
+use super::search::{BEND_MARGIN, Below, METRIC_MARGIN, SLACK, Search, Shape, stationary};
+use super::{Nearest, SAME};
 use crate::error::Result;
 use crate::nurbs::{Direction, NurbsSurface, SurfaceDerivatives};
 use crate::ops::closest::foot_within;
 use glam::{DMat3, DVec2, DVec3};
-use std::collections::BinaryHeap;
 
 /// Places along each side of a piece at which its derivatives are looked at.
 const SAMPLES: usize = 3;
-/// The smallest metric on a piece may be this fraction of the smallest one seen.
-const METRIC_MARGIN: f64 = 0.5;
-/// The largest second derivatives on a piece may be this many times the largest ones seen.
-const BEND_MARGIN: f64 = 1.5;
-/// Pieces are prepared so small that their size stays below this fraction of the distance up to
-/// which they are convex.
-const SLACK: f64 = 0.5;
 /// Halvings of a piece while preparing: more are left to the query that needs them.
 const DEPTH: usize = 6;
-/// Pieces below this fraction of the coordinates are points.
-const SMALLEST: f64 = 1e-10;
 /// Pieces in a leaf of the tree.
 const LEAF: usize = 2;
 
 /// A piece with its bounds.
 #[derive(Debug, Clone)]
-struct Patch {
+pub struct Patch {
     piece: SurfacePiece,
     low: DVec2,
     high: DVec2,
@@ -78,11 +69,6 @@ impl Patch {
     fn nearest_squared(&self, p: DVec3) -> f64 {
         let local = self.frame * (p - self.centre);
         (self.box_low - local).max(local - self.box_high).max(DVec3::ZERO).length_squared()
-    }
-
-    /// Whether the squared distance to `p` is convex on the piece.
-    fn is_convex(&self, p: DVec3) -> bool {
-        (p - self.centre).length() + self.radius < self.convex
     }
 
     /// Where the tangent plane in the middle is nearest to `p`, within the piece.
@@ -232,125 +218,65 @@ impl SurfaceInverter {
 
     /// The nearest point to `p`, globally.
     pub fn nearest(&self, p: DVec3) -> Nearest<DVec2, DVec3> {
-        let mut search = Search::new(&self.surface, p, None);
-        self.descend(&mut search);
-        search.best
+        self.search(p, None).best
     }
 
     /// All points of the surface that are as near to `p` as the nearest, to within `tie_mm`, the
     /// nearest first. Where a whole curve or area is, some of its points.
     pub fn nearest_all(&self, p: DVec3, tie_mm: f64) -> Vec<Nearest<DVec2, DVec3>> {
-        let mut search = Search::new(&self.surface, p, Some(tie_mm));
-        self.descend(&mut search);
-        search.ties()
+        self.search(p, Some(tie_mm)).ties()
     }
 
-    /// Visits the tree, the nearer child first.
-    fn descend(&self, search: &mut Search<'_>) {
-        let mut stack = [(0u32, 0.0f64); 64];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (at, bound) = stack[height];
-            if search.excludes(bound) {
-                continue;
+    fn search(&self, p: DVec3, tie_mm: Option<f64>) -> Search<'_, NurbsSurface> {
+        let mut search = Search::new(&self.surface, DVec2::ZERO, p, tie_mm);
+        let below = |at: usize| {
+            let Node { first, count, .. } = self.nodes[at];
+            let first = first as usize;
+            match count as usize {
+                0 => Below::Nodes([first, first + 1]),
+                count => Below::Pieces(&self.patches[first..first + count]),
             }
-            let node = &self.nodes[at as usize];
-            if node.count > 0 {
-                let range = node.first as usize..(node.first + node.count) as usize;
-                self.patches[range].iter().for_each(|patch| search.visit(patch));
-                continue;
-            }
-            let bound = |k: u32| self.nodes[k as usize].nearest_squared(search.p);
-            let (a, b) = ((node.first, bound(node.first)), (node.first + 1, bound(node.first + 1)));
-            let (near, far) = if a.1 <= b.1 { (a, b) } else { (b, a) };
-            stack[height] = far;
-            stack[height + 1] = near;
-            height += 2;
-        }
-        search.finish();
+        };
+        search.descend(below, |at, p| self.nodes[at].nearest_squared(p));
+        search
     }
 }
 
-/// One query.
-struct Search<'a> {
-    surface: &'a NurbsSurface,
-    p: DVec3,
-    best: Nearest<DVec2, DVec3>,
-    best_squared: f64,
-    tie_mm: Option<f64>,
-    found: Vec<Nearest<DVec2, DVec3>>,
-    rest: BinaryHeap<Pending<Patch>>,
-}
+impl Shape for NurbsSurface {
+    type At = DVec2;
+    type Point = DVec3;
+    type Piece = Patch;
 
-impl<'a> Search<'a> {
-    fn new(surface: &'a NurbsSurface, p: DVec3, tie_mm: Option<f64>) -> Self {
-        let best = Nearest { at: DVec2::ZERO, point: DVec3::ZERO, distance: f64::INFINITY };
-        Self {
-            surface,
-            p,
-            best,
-            best_squared: f64::INFINITY,
-            tie_mm,
-            found: Vec::new(),
-            rest: BinaryHeap::new(),
-        }
+    fn bound(patch: &Patch, p: DVec3) -> f64 {
+        patch.nearest_squared(p)
     }
 
-    /// Whether nothing at so large a squared distance is wanted.
-    fn excludes(&self, squared: f64) -> bool {
-        match self.tie_mm {
-            None => squared >= self.best_squared,
-            Some(tie) => squared.sqrt() > self.best.distance + tie,
-        }
+    fn is_convex(patch: &Patch, p: DVec3) -> bool {
+        (p - patch.centre).length() + patch.radius < patch.convex
     }
 
-    fn take(&mut self, at: DVec2, point: DVec3, distance: f64) {
-        let found = Nearest { at, point, distance };
-        if distance < self.best.distance {
-            (self.best, self.best_squared) = (found, distance * distance);
-        }
-        if self.tie_mm.is_some_and(|tie| distance <= self.best.distance + tie) {
-            self.found.push(found);
-        }
+    fn size(patch: &Patch) -> f64 {
+        patch.radius
     }
 
-    fn visit(&mut self, patch: &Patch) {
-        if self.excludes(patch.nearest_squared(self.p)) {
-            return;
-        }
-        let foot = foot_within(self.surface, self.p, patch.start(self.p), [patch.low, patch.high]);
-        self.take(foot.uv, foot.point, foot.distance);
-        if !patch.is_convex(self.p) && patch.radius > SMALLEST * (1.0 + self.p.length()) {
-            self.rest.push(Pending { bound: patch.nearest_squared(self.p), piece: patch.clone() });
-        }
+    fn foot(&self, patch: &Patch, p: DVec3) -> Nearest<DVec2, DVec3> {
+        let foot = foot_within(self, p, patch.start(p), [patch.low, patch.high]);
+        Nearest { at: foot.uv, point: foot.point, distance: foot.distance }
     }
 
-    /// Halves the pieces on which there may be more minima.
-    fn finish(&mut self) {
-        for _ in 0..HALVINGS {
-            let Some(next) = self.rest.pop() else { break };
-            if self.excludes(next.bound) {
-                break;
-            }
-            next.piece.halves(self.surface).iter().for_each(|half| self.visit(half));
-        }
+    fn halves(&self, patch: Patch) -> [Patch; 2] {
+        patch.halves(self)
     }
 
-    /// The nearest points found, each place once.
-    fn ties(mut self) -> Vec<Nearest<DVec2, DVec3>> {
-        let reach = self.best.distance + self.tie_mm.unwrap_or(0.0);
-        self.found.retain(|f| f.distance <= reach);
-        self.found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        let [ku, kv] = [self.surface.knots_u().domain(), self.surface.knots_v().domain()];
-        // The borders of pieces are no minima of the surface.
-        self.found.retain(|f| {
-            let [s, u, v] = self.surface.first_derivatives(f.at.x, f.at.y);
-            let r = s - self.p;
-            stationary(f.at.x, ku, r.dot(u), r.length() * u.length())
-                && stationary(f.at.y, kv, r.dot(v), r.length() * v.length())
-        });
-        let size = DVec2::new(ku.1 - ku.0, kv.1 - kv.0);
-        distinct(self.found, |a, b| ((a.at - b.at) / size).length() < SAME)
+    fn is_minimum(&self, at: DVec2, p: DVec3) -> bool {
+        let [s, u, v] = self.first_derivatives(at.x, at.y);
+        let r = s - p;
+        stationary(at.x, self.knots_u().domain(), r.dot(u), r.length() * u.length())
+            && stationary(at.y, self.knots_v().domain(), r.dot(v), r.length() * v.length())
+    }
+
+    fn same(&self, a: DVec2, b: DVec2) -> bool {
+        let [ku, kv] = [self.knots_u().domain(), self.knots_v().domain()];
+        ((a - b) / DVec2::new(ku.1 - ku.0, kv.1 - kv.0)).length() < SAME
     }
 }

@@ -132,18 +132,14 @@ def _settings(
             f"{len(part.solids)}; choose one with --solid"
         )
     names = [] if chosen is None else part.solids[chosen].face_names
-    moving = selected("--faces", options.faces, names)
-    fixed = selected("--fixed", options.fixed, names)
-    if moving and not set(moving) - set(fixed):
-        raise InputError("every face of --faces is in --fixed too, so nothing would move")
     return MorphOptions(
         factor=options.factor,
         tolerance_mm=options.tolerance,
         match_tolerance_mm=options.match_tolerance or 0.0,
         field_unit_mm=FIELD_UNITS_MM[options.field_unit] if options.field_unit else 0.0,
         displacement_scale=options.displacement_scale,
-        moving_faces=moving,
-        fixed_faces=fixed,
+        moving_faces=selected("--faces", options.faces, names),
+        fixed_faces=selected("--fixed", options.fixed, names),
         extrapolate=options.extrapolate,
         holdout=options.holdout,
         threads=options.threads or 0,

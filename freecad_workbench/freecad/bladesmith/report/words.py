@@ -59,7 +59,7 @@ def _solid_sentence(solid: dict) -> str:
 
 
 def _tangency_sentences(report: Report) -> list[str]:
-    """Joints beside held faces apart: there the field itself asks for a kink."""
+    """Joints beside held faces apart: a face that stays beside one that moves asks for a kink."""
     tangent = [edge for edge in report.edges if edge.tangent]
     if not tangent:
         return ["The part has no tangent joints."]
@@ -75,9 +75,7 @@ def _tangency_sentences(report: Report) -> list[str]:
         found.append(f"All {len(tangent)} tangent joints {kept}")
     if held:
         most = max(edge.angle_deg.after - edge.angle_deg.before for edge in held)
-        found.append(
-            f"Beside held faces, {_names(held)} opened by up to {most:.2g}°, as the field asks."
-        )
+        found.append(f"Beside held faces, {_names(held)} opened by up to {most:.2g}°.")
     return found
 
 
