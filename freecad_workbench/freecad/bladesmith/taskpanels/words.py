@@ -98,7 +98,7 @@ def result(report: Report, tolerance_mm: float, current: bool) -> str:
 
 def outdated() -> str:
     """That a result is not that of the input as it is."""
-    return _line(translate("The input has changed since; this was its result before:"), _ODD)
+    return _line(translate("The input has changed since. The result before the change:"), _ODD)
 
 
 def verdict(report: Report, tolerance_mm: float) -> str:

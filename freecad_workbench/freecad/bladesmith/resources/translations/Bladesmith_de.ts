@@ -204,8 +204,8 @@
    <translation>Der Spalt der Eingabe</translation>
   </message>
   <message>
-   <source>The input has changed since; this was its result before:</source>
-   <translation>Die Eingaben haben sich seither geändert; ihr Ergebnis davor war:</translation>
+   <source>The input has changed since. The result before the change:</source>
+   <translation>Die Eingaben haben sich seither geändert. Das Ergebnis davor:</translation>
   </message>
   <message>
    <source>The result is folded: not to be used</source>
