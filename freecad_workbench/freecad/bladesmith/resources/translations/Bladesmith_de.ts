@@ -8,6 +8,10 @@
    <translation>Eine Skala braucht zwei Zahlen, die kleinere zuerst, und beide über null, wo sie logarithmisch ist.</translation>
   </message>
   <message>
+   <source>All files</source>
+   <translation>Alle Dateien</translation>
+  </message>
+  <message>
    <source>Angle, °</source>
    <translation>Winkel, °</translation>
   </message>
@@ -52,6 +56,10 @@
    <translation>Verschiebung Z</translation>
   </message>
   <message>
+   <source>Displacements</source>
+   <translation>Verschiebungen</translation>
+  </message>
+  <message>
    <source>Drawing the report …</source>
    <translation>Bericht wird gezeichnet …</translation>
   </message>
@@ -80,6 +88,10 @@
    <translation>Face{0}, Knoten {1}</translation>
   </message>
   <message>
+   <source>Factor {0}</source>
+   <translation>Faktor {0}</translation>
+  </message>
+  <message>
    <source>From</source>
    <translation>Von</translation>
   </message>
@@ -96,8 +108,8 @@
    <translation>Spalte und Tangentialität je Kante</translation>
   </message>
   <message>
-   <source>Hold-out error: mean {0} mm, largest {1} mm</source>
-   <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm</translation>
+   <source>Hold-out error: mean {0} mm, largest {1} mm, on {2}</source>
+   <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm, auf {2}</translation>
   </message>
   <message>
    <source>How much the angle of a tangent joint grew</source>
@@ -144,6 +156,10 @@
    <translation>Schlechteste Stelle markieren</translation>
   </message>
   <message>
+   <source>Mesh</source>
+   <translation>Netz</translation>
+  </message>
+  <message>
    <source>Movement</source>
    <translation>Bewegung</translation>
   </message>
@@ -188,8 +204,12 @@
    <translation>Der Spalt der Eingabe</translation>
   </message>
   <message>
-   <source>The inputs have changed since: recompute to see their result</source>
-   <translation>Die Eingaben haben sich seither geändert: neu berechnen, um ihr Ergebnis zu sehen</translation>
+   <source>The input has changed since. The result before the change:</source>
+   <translation>Die Eingaben haben sich seither geändert. Das Ergebnis davor:</translation>
+  </message>
+  <message>
+   <source>The result is folded: not to be used</source>
+   <translation>Das Ergebnis ist gefaltet: nicht verwenden</translation>
   </message>
   <message>
    <source>The solid is not valid, or open</source>
@@ -224,6 +244,10 @@
    <translation>ein Häkchen bei Extrapolieren</translation>
   </message>
   <message>
+   <source>cold to hot</source>
+   <translation>kalt nach heiß</translation>
+  </message>
+  <message>
    <source>drawing</source>
    <translation>Darstellung</translation>
   </message>
@@ -240,16 +264,24 @@
    <translation>ohne jeden zehnten Knoten anpassen</translation>
   </message>
   <message>
+   <source>hot to cold</source>
+   <translation>heiß nach kalt</translation>
+  </message>
+  <message>
    <source>measuring the result</source>
    <translation>Ergebnis vermessen</translation>
+  </message>
+  <message>
+   <source>mm, assumed</source>
+   <translation>mm, angenommen</translation>
   </message>
   <message>
    <source>movement × {0}</source>
    <translation>Bewegung × {0}</translation>
   </message>
   <message>
-   <source>not stated: millimetres</source>
-   <translation>ohne Angabe: Millimeter</translation>
+   <source>nothing moves</source>
+   <translation>nichts bewegt sich</translation>
   </message>
   <message>
    <source>placing nodes on faces</source>
@@ -625,8 +657,16 @@
    <translation>Was die Eingabe enthält</translation>
   </message>
   <message>
+   <source>Which way the factor moves the part</source>
+   <translation>In welche Richtung der Faktor das Teil bewegt</translation>
+  </message>
+  <message>
    <source>all faces</source>
    <translation>alle Flächen</translation>
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation>automatisch</translation>
   </message>
   <message>
    <source>none</source>
