@@ -90,3 +90,20 @@ fn a_curve_that_leaves_another_at_a_corner_overlaps_up_to_it() {
     one_overlap("a corner", &all, [0.0, 0.5], [0.0, 0.5]);
     assert!(all.crossings.is_empty(), "{all:?}");
 }
+
+#[test]
+fn curves_beside_each_other_overlap_up_to_the_tolerance() {
+    let mut random = Random(9);
+    for case in 0..20 {
+        let a = curve(&mut random, 1 + case % 5, false).part(0.0, 0.1).unwrap();
+        for (off, expected) in [(0.5e-6, 1), (0.99e-6, 1), (1.02e-6, 0), (1.9e-6, 0), (2.1e-6, 0), (1e-5, 0)]
+        {
+            let [_, d, _] = a.derivatives(0.05);
+            let line = line((a.point(0.0) - d).into(), (a.point(0.0) + d).into());
+            let beside = line.mapped(|p| p + d.perp().normalize() * off).unwrap();
+            let all = curves(&line, &beside, 1e-6).unwrap();
+            assert_eq!(all.overlaps.len(), expected, "{case}, {off}: {all:?}");
+            assert!(all.crossings.is_empty(), "{case}, {off}: {all:?}");
+        }
+    }
+}

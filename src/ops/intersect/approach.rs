@@ -5,10 +5,10 @@ use super::tree::Tree;
 use crate::nurbs::Point;
 
 /// Newton steps at most.
-const STEPS: usize = 16;
+pub const STEPS: usize = 16;
 /// A step of a parameter, of 0 to 1, after which one more would change nothing: convergence is
 /// quadratic.
-const SETTLED: f64 = 1e-10;
+pub const SETTLED: f64 = 1e-10;
 
 /// A piece of a curve: a node of its tree.
 pub type Piece<'a, P> = (&'a Tree<P>, usize);
@@ -48,10 +48,8 @@ impl<P: Point> Place<P> {
     }
 }
 
-/// The step from a place to where the tangents come nearest, within both pieces.
-fn step<P: Point>(place: &Place<P>) -> [f64; 2] {
-    let ([u, v], [d, e]) = (place.at, place.derivatives);
-    let gap = place.points[1] - place.points[0];
+/// The step within the unit square, from a place in it, after which `gap + e v − d u` is shortest.
+pub fn step<P: Point>([u, v]: [f64; 2], gap: P, [d, e]: [P; 2]) -> [f64; 2] {
     let (dd, de, ee) = (d.dot(d), d.dot(e), e.dot(e));
     let (gd, ge) = (gap.dot(d), gap.dot(e));
     // What is across the second curve keeps its digits where the tangents are nearly parallel.
@@ -82,7 +80,8 @@ fn step<P: Point>(place: &Place<P>) -> [f64; 2] {
 pub fn nearest<P: Point>(pieces: [Piece<P>; 2], start: [f64; 2]) -> Place<P> {
     let mut place = Place::new(pieces, start);
     for _ in 0..STEPS {
-        let [a, b] = step(&place);
+        let gap = place.points[1] - place.points[0];
+        let [a, b] = step(place.at, gap, place.derivatives);
         let [u, v] = place.at;
         place = Place::new(pieces, [(u + a).clamp(0.0, 1.0), (v + b).clamp(0.0, 1.0)]);
         if a.abs() < SETTLED && b.abs() < SETTLED {

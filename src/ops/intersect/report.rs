@@ -92,16 +92,17 @@ impl<P: Point> Search<P> {
         };
         let mut all: Vec<Overlap> = self.contacts.iter().filter(|c| c.is_overlap).map(as_overlap).collect();
         all.sort_by(|a, b| a.first[0].total_cmp(&b.first[0]));
-        let slack = [0, 1].map(|side| {
-            let [a, b] = self.tree(side).domain;
-            1e-9 * (b - a)
-        });
+        let meet = |side: usize, s: f64, t: f64| {
+            let tree = self.tree(side);
+            let [a, b] = tree.domain;
+            let apart = (tree.point(s) - tree.point(t)).length();
+            (s - t).abs() <= 1e-3 * (b - a) && apart <= LOOP * self.tolerance
+        };
         let mut out: Vec<Overlap> = Vec::new();
         for next in all {
             let follows = |o: &Overlap| {
                 let rises = (o.second[1] - o.second[0]) * (next.second[1] - next.second[0]) > 0.0;
-                let gap = [next.first[0] - o.first[1], next.second[0] - o.second[1]];
-                rises && gap[0].abs() <= slack[0] && gap[1].abs() <= slack[1]
+                rises && meet(0, o.first[1], next.first[0]) && meet(1, o.second[1], next.second[0])
             };
             match out.iter_mut().find(|o| follows(o)) {
                 Some(known) => (known.first[1], known.second[1]) = (next.first[1], next.second[1]),
