@@ -194,6 +194,41 @@ fn a_ray_in_a_plane_runs_along_it() {
     assert_eq!(h.kind, Kind::Tangential, "{h:?}");
 }
 
+#[test]
+fn rays_along_a_cylinder_or_touching_it_at_its_seam_graze() {
+    let side = NurbsCurve::new(
+        KnotVector::clamped(1, &[0.0, 1.0]).unwrap(),
+        vec![DVec3::X, DVec3::X + DVec3::Z * 3.0],
+        None,
+    );
+    let cylinder = NurbsSurface::revolved(&side.unwrap(), DVec3::ZERO, DVec3::Z, TAU).unwrap();
+    let caster = SurfaceCaster::new(&cylinder).unwrap();
+    let rulings = [
+        (DVec3::new(1.0, 0.0, -1.0), DVec3::Z, [1.0, 4.0]),
+        (DVec3::new(0.6, 0.8, 5.0), -DVec3::Z, [2.0, 5.0]),
+        (DVec3::new(1.0, 0.0, 1.0), DVec3::Z, [0.0, 2.0]),
+        (DVec3::new(0.6, 0.8, 1.0), DVec3::Z, [0.0, 2.0]),
+    ];
+    for (origin, direction, along) in rulings {
+        let hits = caster.hits(&Ray::new(origin, direction).unwrap(), 1e-9).unwrap();
+        assert_eq!(hits.len(), 1, "{origin}: {hits:?}");
+        let near = (0..2).all(|k| (hits[0].along[k] - along[k]).abs() < 1e-8);
+        assert!(near && hits[0].kind == Kind::Tangential, "{origin}: {hits:?}");
+        assert!(hits[0].s >= along[0] - 1e-8 && hits[0].s <= along[1] + 1e-8, "{origin}: {hits:?}");
+    }
+    for (x, z) in [(1.0, 1.0), (1.0, 0.0), (-1.0, 1.0)] {
+        for tolerance in [1e-9, 1e-6, 1e-3] {
+            let ray = Ray::new(DVec3::new(x, -3.0, z), DVec3::Y).unwrap();
+            let hits = caster.hits(&ray, tolerance).unwrap();
+            assert_eq!(hits.len(), 1, "{x}, {z}, {tolerance}: {hits:?}");
+            assert!(
+                hits[0].kind == Kind::Tangential && (hits[0].s - 3.0).abs() < 1e-6,
+                "{x}, {z}, {tolerance}: {hits:?}"
+            );
+        }
+    }
+}
+
 fn parabola() -> NurbsCurve<DVec2> {
     let poles = [[-1.0, 1.0], [0.0, -1.0], [1.0, 1.0]].map(DVec2::from).to_vec();
     NurbsCurve::new(KnotVector::clamped(2, &[0.0, 1.0]).unwrap(), poles, None).unwrap()

@@ -107,3 +107,18 @@ fn curves_beside_each_other_overlap_up_to_the_tolerance() {
         }
     }
 }
+
+#[test]
+fn a_closed_curve_and_itself_have_the_seam_in_their_overlap() {
+    let circle = |radius: f64| {
+        NurbsCurve::arc(DVec2::ZERO, DVec2::X * radius, DVec2::Y * radius, 0.0, std::f64::consts::TAU)
+            .unwrap()
+    };
+    let all = curves(&circle(2.0), &circle(2.0), 1e-9).unwrap();
+    one_overlap("a circle", &all, [0.0, 1.0], [0.0, 1.0]);
+    assert!(all.crossings.is_empty(), "{all:?}");
+    for off in [3e-9, 1e-8, 1e-3] {
+        let all = curves(&circle(2.0), &circle(2.0 + off), 1e-9).unwrap();
+        assert!(all.overlaps.is_empty() && all.crossings.is_empty(), "{off}: {all:?}");
+    }
+}

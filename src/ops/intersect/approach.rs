@@ -63,16 +63,16 @@ pub fn step<P: Point>([u, v]: [f64; 2], gap: P, [d, e]: [P; 2]) -> [f64; 2] {
             return free;
         }
     }
-    // The least of the quadratic on the sides of the square.
-    let side = |fixed: f64, t: f64, along: f64, squared: f64| {
+    // The least of the quadratic on the sides of the square, or with one parameter kept.
+    let along = |t: f64, along: f64, squared: f64| {
         let best = if squared > 0.0 { along / squared } else { 0.0 };
-        [fixed, (t + best).clamp(0.0, 1.0) - t]
+        (t + best).clamp(0.0, 1.0) - t
     };
-    let u_sides = [-u, 1.0 - u].map(|a| side(a, v, de * a - ge, ee));
-    let v_sides = [-v, 1.0 - v].map(|b| side(b, u, de * b + gd, dd)).map(|[b, a]| [a, b]);
-    let height = |[a, b]: [f64; 2]| (gap + e * b - d * a).dot(gap + e * b - d * a);
-    let all = [u_sides[0], u_sides[1], v_sides[0], v_sides[1]];
-    all.into_iter().min_by(|x, y| height(*x).total_cmp(&height(*y))).unwrap_or([0.0; 2])
+    let with_u = |a: f64| [a, along(v, de * a - ge, ee)];
+    let with_v = |b: f64| [along(u, de * b + gd, dd), b];
+    let height = |[a, b]: &[f64; 2]| (gap + e * *b - d * *a).dot(gap + e * *b - d * *a);
+    let all = [with_u(0.0), with_v(0.0), with_u(-u), with_u(1.0 - u), with_v(-v), with_v(1.0 - v)];
+    all.into_iter().min_by(|x, y| height(x).total_cmp(&height(y))).unwrap_or([0.0; 2])
 }
 
 /// Where the pieces come nearest to each other, sought from `start`; where they cross once, this

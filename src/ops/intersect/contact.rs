@@ -9,6 +9,11 @@ use crate::nurbs::Point;
 /// A contact is followed to where the distance is so many times the tolerance: what is within the
 /// tolerance next to it is then a part of it.
 const REACH: f64 = 2.0;
+/// Two pieces are beside each other if their distance varies by this part of what it is above the
+/// tolerance, at the ends and at places between.
+const EVEN: f64 = 0.03;
+/// Such places, plus one.
+const PLACES: usize = 10;
 /// Steps in which one side of a contact is followed.
 const STEPS: usize = 24;
 /// The last step towards where a contact ends, as a part of the longest.
@@ -60,8 +65,9 @@ impl<P: Point> Search<P> {
         let Some([low, high]) = self.common(pair) else { return false };
         let reach = REACH * self.tolerance;
         let pieces = self.pieces(pair);
-        if [low, high].iter().any(|at| Place::new(pieces, *at).distance() > reach) {
-            return false;
+        let ends = [low, high].map(|at| Place::new(pieces, at).distance());
+        if ends.iter().any(|distance| *distance > reach) {
+            return self.is_beside(pair, [low, high], ends);
         }
         let on = |share: f64| {
             let u = low[0] + (high[0] - low[0]) * share;
@@ -78,6 +84,25 @@ impl<P: Point> Search<P> {
             self.follow(pair, global(inner[1]));
         }
         true
+    }
+
+    /// Whether two pieces keep so even a distance that they cannot come nearer between the places
+    /// looked at.
+    fn is_beside(&self, pair: [usize; 2], [low, high]: [[f64; 2]; 2], ends: [f64; 2]) -> bool {
+        let [first, second] = self.pieces(pair);
+        let is_even = |[least, most]: [f64; 2]| most - least <= EVEN * (least - self.tolerance);
+        let mut range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        for k in 1..PLACES {
+            if !is_even(range) {
+                return false;
+            }
+            let share = k as f64 / PLACES as f64;
+            let [u, v] = [0, 1].map(|side| low[side] + (high[side] - low[side]) * share);
+            let point = first.0.at(first.1, u)[0];
+            let distance = (second.0.at(second.1, foot(second, point, v))[0] - point).length();
+            range = [range[0].min(distance), range[1].max(distance)];
+        }
+        is_even(range)
     }
 
     /// The ends of the stretch that two pieces have in common, if both are graphs over one line:

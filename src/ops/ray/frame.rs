@@ -80,12 +80,12 @@ impl View {
         [DVec2::X, DVec2::Y, cones[0].axis.perp(), cones[1].axis.perp()].into_iter().any(outside)
     }
 
-    /// Its extent across the ray with `u` and with `v`, at most.
-    fn extents(&self) -> [f64; 2] {
+    /// Its extent with `u` and with `v`, at most, by some length of differences.
+    fn extents(&self, length: impl Fn(DVec3) -> f64) -> [f64; 2] {
         let (piece, columns) = (&self.piece, self.piece.columns);
-        let point = |k: usize| piece.poles[k].truncate() / piece.weights[k];
+        let point = |k: usize| piece.poles[k] / piece.weights[k];
         let of = |first: usize, count: usize, stride: usize| {
-            (1..count).map(|k| (point(first + k * stride) - point(first)).length()).fold(0.0, f64::max)
+            (1..count).map(|k| length(point(first + k * stride) - point(first))).fold(0.0, f64::max)
         };
         let rows = piece.poles.len() / columns;
         let u = (0..columns).map(|j| of(j, rows, columns)).fold(0.0, f64::max);
@@ -93,18 +93,26 @@ impl View {
         [u, v]
     }
 
-    /// Both halves along the direction of the larger extent; none of a part that is a point as
-    /// seen along the ray.
+    /// Both halves along the direction of the larger extent across the ray; none of a part that is
+    /// a point as seen along the ray.
     pub fn halves(&self, point: f64) -> Option<[Self; 2]> {
-        let [u, v] = self.extents();
+        self.halved(self.extents(|d| d.truncate().length()), point)
+    }
+
+    /// Both halves along the direction of the larger extent along the ray.
+    pub fn halves_along(&self, point: f64) -> Option<[Self; 2]> {
+        self.halved(self.extents(|d| d.z.abs()), point)
+    }
+
+    fn halved(&self, [u, v]: [f64; 2], point: f64) -> Option<[Self; 2]> {
         let room = |k: usize| {
             let [a, b] = self.piece.range[k];
             0.5 * (a + b) > a && 0.5 * (a + b) < b
         };
         let direction = match (room(0) && u > point, room(1) && v > point) {
             (false, false) => return None,
-            (true, true) if u >= v => Direction::U,
             (true, false) => Direction::U,
+            (true, true) if u >= v => Direction::U,
             _ => Direction::V,
         };
         let halves = self.piece.clone().halves(direction);

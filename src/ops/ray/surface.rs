@@ -3,7 +3,7 @@
 use super::frame::{Sight, View};
 use super::{Hit, Ray};
 use crate::error::{Error, Result};
-use crate::nurbs::NurbsSurface;
+use crate::nurbs::{Direction, NurbsSurface};
 use crate::ops::intersect::{self, Kind};
 use crate::ops::invert::bezier::{SurfacePiece, surface_pieces};
 use glam::{DMat2, DVec2, DVec3};
@@ -16,6 +16,8 @@ const PARTS: usize = 400_000;
 const BETWEEN: usize = 6;
 /// A hit grazes if it stays within the tolerance for so many times it.
 const GRAZE: f64 = 60.0;
+/// Sine of the angle below which a hit may be a graze.
+const FLAT: f64 = 0.05;
 /// Steps to the place where a ray grazes.
 const STEPS: usize = 12;
 
@@ -28,6 +30,8 @@ pub struct SurfaceCaster {
     /// Boxes of the implicit binary tree over the patches: node `k` has the children `2k + 1` and
     /// `2k + 2`; leaves are the patches, from node `pieces.len() − 1` on.
     boxes: Vec<[DVec3; 2]>,
+    /// Whether the sides of least and largest u are one, and those of v.
+    closed: [bool; 2],
 }
 
 /// A place found.
@@ -57,7 +61,8 @@ impl SurfaceCaster {
             let ([a, b], [c, d]) = (boxes[2 * k + 1], boxes[2 * k + 2]);
             boxes[k] = [a.min(c), b.max(d)];
         }
-        Ok(Self { surface: surface.clone(), pieces, boxes })
+        let closed = [Direction::U, Direction::V].map(|direction| is_closed(surface, direction));
+        Ok(Self { surface: surface.clone(), pieces, boxes, closed })
     }
 
     /// All places where the surface is not further than `tolerance` from the ray, the nearest to
@@ -137,13 +142,33 @@ impl SurfaceCaster {
                 return true;
             }
         }
+        self.is_joined(ray, tolerance, a.at, b.at)
+    }
+
+    /// Whether the surface stays on the ray between two parameters, over a seam if that is shorter.
+    fn is_joined(&self, ray: &Ray<DVec3>, tolerance: f64, a: DVec2, b: DVec2) -> bool {
+        let (low, high) = self.domain();
+        let period = high - low;
+        let mut step = b - a;
+        for k in 0..2 {
+            if self.closed[k] && step[k].abs() > 0.5 * period[k] {
+                step[k] -= period[k].copysign(step[k]);
+            }
+        }
         (1..BETWEEN).all(|k| {
-            let at = a.at.lerp(b.at, k as f64 / BETWEEN as f64);
+            let mut at = a + step * (k as f64 / BETWEEN as f64);
+            at += period * (DVec2::from(at.cmplt(low)) - DVec2::from(at.cmpgt(high)));
             let from = self.surface.point(at.x, at.y) - ray.origin;
             from.reject_from_normalized(ray.direction).length() <= 2.0 * tolerance
         })
     }
 
+    fn domain(&self) -> (DVec2, DVec2) {
+        let domains = [self.surface.knots_u().domain(), self.surface.knots_v().domain()];
+        (domains.map(|d| d.0).into(), domains.map(|d| d.1).into())
+    }
+
+    /// A group of places that are one, as a hit.
     fn hit(&self, ray: &Ray<DVec3>, tolerance: f64, group: &[Place]) -> Hit<DVec2, DVec3> {
         let by_distance = |a: &&Place, b: &&Place| a.sight.distance.total_cmp(&b.sight.distance);
         let crossing = group.iter().filter(|p| p.crosses).min_by(by_distance);
@@ -151,12 +176,20 @@ impl SurfaceCaster {
         let ends = |[a, b]: [f64; 2], p: &Place| [a.min(p.along[0]), b.max(p.along[1])];
         let mut along = group.iter().fold(best.along, ends);
         along = along.map(|s| s.max(ray.from));
-        let grazes = along[1] - along[0] > GRAZE * tolerance;
+        let stays = along[1] - along[0] > GRAZE * tolerance;
         let mut sight = best.sight;
-        if grazes {
-            let at = group.iter().map(|p| p.sight.at).sum::<DVec2>() / group.len() as f64;
-            sight = self.grazing(ray, at).filter(|s| s.distance <= tolerance).unwrap_or(sight);
-        } else {
+        let mut grazes = stays;
+        if stays || self.sine(ray, sight.at) < FLAT {
+            let middle = 0.5 * (along[0] + along[1]);
+            let off = |p: &&Place| (p.sight.s - middle).abs();
+            let start =
+                group.iter().min_by(|a, b| off(a).total_cmp(&off(b))).map_or(sight.at, |p| p.sight.at);
+            let on_ray = |s: &Sight| s.distance <= tolerance && self.is_joined(ray, tolerance, start, s.at);
+            if let Some(place) = self.grazing(ray, start).filter(on_ray) {
+                (sight, grazes) = (place, true);
+            }
+        }
+        if !grazes {
             along = [sight.s.max(ray.from); 2];
         }
         let point = self.surface.point(sight.at.x, sight.at.y);
@@ -164,11 +197,16 @@ impl SurfaceCaster {
         Hit { s: sight.s.max(ray.from), along, at: sight.at, point, distance: sight.distance, kind }
     }
 
+    /// Sine of the angle between the ray and the surface; 1 where this has no normal.
+    fn sine(&self, ray: &Ray<DVec3>, at: DVec2) -> f64 {
+        let normal = self.surface.derivatives(at.x, at.y).normal();
+        normal.try_normalize().map_or(1.0, |n| n.dot(ray.direction).abs())
+    }
+
     /// Near a place, that at which the ray is parallel to the surface and as near to it as it gets
     /// across the normal.
     fn grazing(&self, ray: &Ray<DVec3>, mut at: DVec2) -> Option<Sight> {
-        let domains = [self.surface.knots_u().domain(), self.surface.knots_v().domain()];
-        let (low, high) = (domains.map(|d| d.0).into(), domains.map(|d| d.1).into());
+        let (low, high) = self.domain();
         let d = ray.direction;
         for _ in 0..STEPS {
             let j = self.surface.derivatives(at.x, at.y);
@@ -186,6 +224,18 @@ impl SurfaceCaster {
         }
         let from = self.surface.point(at.x, at.y) - ray.origin;
         Some(Sight { at, s: from.dot(d), distance: from.reject_from_normalized(d).length() })
+    }
+}
+
+/// Whether the first and last poles along a direction are the same.
+fn is_closed(surface: &NurbsSurface, direction: Direction) -> bool {
+    let (columns, poles) = (surface.knots_v().len(), surface.poles());
+    let rows = poles.len() / columns;
+    let size = poles.iter().map(|p| p.distance(poles[0])).fold(0.0, f64::max);
+    let same = |a: usize, b: usize| poles[a].distance(poles[b]) <= 1e-12 * size;
+    match direction {
+        Direction::U => (0..columns).all(|j| same(j, (rows - 1) * columns + j)),
+        Direction::V => (0..rows).all(|i| same(i * columns, (i + 1) * columns - 1)),
     }
 }
 
@@ -220,7 +270,9 @@ fn look(
                 continue;
             }
         }
-        match view.halves(POINT * tolerance) {
+        let begins_within = view.along[0] < ray.from - tolerance;
+        let along = || view.halves_along(tolerance).filter(|_| begins_within);
+        match view.halves(POINT * tolerance).or_else(along) {
             Some(halves) => rest.extend(halves),
             None => {
                 let sight = view.nearest();
