@@ -26,9 +26,11 @@ pub struct Ray<P> {
 /// Where a ray meets a curve (`T` its parameter) or surface (`T` its two).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit<T, P> {
-    /// Length from the origin of the ray; negative behind that of a line.
+    /// Length from the origin of the ray, negative before that of a line; where it grazes, of the
+    /// place at which both are parallel.
     pub s: f64,
-    /// The part of the ray that is within the tolerance; of no length unless it grazes.
+    /// The part of the ray that is within the tolerance; of no length unless it grazes a surface or
+    /// runs along a curve or surface.
     pub along: [f64; 2],
     /// Parameters of the curve or surface.
     pub at: T,
