@@ -198,6 +198,19 @@ fn no_source_is_longer_than_500_lines() {
     assert!(wrong.is_empty(), "split these:\n{}", wrong.join("\n"));
 }
 
+#[test]
+fn every_file_of_tests_is_run() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let listed = fs::read_to_string(tests.join("rooms.rs")).expect("a readable source");
+    for entry in fs::read_dir(&tests).expect("a readable folder") {
+        let path = entry.expect("a readable folder").path();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let rust = path.extension().is_some_and(|extension| extension == "rs");
+        let run = listed.lines().any(|line| line == format!("mod {name};"));
+        assert!(!rust || name == "rooms" || run, "tests/{name}.rs is not in tests/rooms.rs");
+    }
+}
+
 /// What a line of Python imports: dots of a relative import, and the dotted names.
 fn python_imports(line: &str) -> Vec<(usize, String)> {
     let line = line.split('#').next().unwrap_or_default().trim();
