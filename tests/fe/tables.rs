@@ -99,7 +99,7 @@ fn faults_are_named_with_their_line() {
         ("rows.csv", "id,x,y,z,dx,dy,dz\n# nothing\n", &["no rows"]),
         ("comments.csv", "# nothing\n", &["only comments"]),
         ("nan.csv", "4,0,0,0,nan,0,0\n9,1,0,0,0,0,0\n", &["1 node with displacements", "NaN", ": 4"]),
-        ("places.csv", "4,0,0,0,0,0,0\n4,1,0,0,0,0,0\n", &["several different positions: 4"]),
+        ("places.csv", "4,0,0,0,0,0,0\n4,1,0,0,0,0,0\n", &["node 4 with several different positions"]),
         ("thousands.csv", "id;x;y;z;dx;dy;dz\n1;1.000,5;0;0;0;0;0\n", &["line 2", "column 2", "1.000,5"]),
     ] {
         assert_says(&refused(name, text), words);
