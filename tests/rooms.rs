@@ -1,10 +1,12 @@
-//! Every test that has a file of its own in this folder, as one program: linked once, which takes
-//! as long as all other work of building them.
+//! The tests of this folder as one program: linking a program takes longer than compiling its tests.
+//! What is neither here nor in Cargo.toml is not run; a test of `layering.rs` looks for it.
 
 mod brep;
 mod brep_malformed;
 mod ffi;
 mod header;
+#[path = "intersect/main.rs"]
+mod intersect;
 mod invert;
 mod layering;
 mod p5_files;
