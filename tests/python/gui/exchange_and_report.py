@@ -8,6 +8,7 @@ from unittest import mock
 
 import FreeCAD
 import FreeCADGui
+from freecad.bladesmith import log
 from freecad.bladesmith.commands import exchange
 from freecad.bladesmith.features import fem, morph, shown
 from freecad.bladesmith.native import InputError
@@ -65,6 +66,16 @@ class Exchange(unittest.TestCase):
         self.assertEqual(found.solids[0].face_colours, COLOURS)
         with self.assertRaisesRegex(InputError, "select one solid"):
             exchange.export([obj, obj.Source], cold)
+
+    def test_what_ends_an_import_or_export_is_in_the_log(self):
+        missing = str(self.folder / "missing.step")
+        with self.assertRaisesRegex(InputError, "No such file"):
+            exchange.insert(missing, self.document.Name)
+        with self.assertRaisesRegex(InputError, "not 0 objects"):
+            exchange.export([], missing)
+        text = log.path().read_text()
+        for expected in (r"FreeCAD: Bladesmith \d", "missing.step: No such file", "not 0 objects"):
+            self.assertRegex(text, expected)
 
     def test_colours_of_the_view_are_exported_where_no_file_said_any(self):
         box = self.document.addObject("Part::Box", "Box")

@@ -9,6 +9,7 @@ from ..features.naming import in_property_names
 from ..model import Report
 from ..model.words import way
 from ..report import words
+from .core_texts import localised
 
 _GOOD, _ODD, _BAD, _GREY = "#2e7d32", "#b26a00", "#c62828", "#808080"
 TRANSLATED = (
@@ -33,7 +34,7 @@ def translate(text: str) -> str:
 
 def for_panel(text: str) -> str:
     """A message with the panel's fields in place of properties and options."""
-    text = in_property_names(text)
+    text = in_property_names(localised(text, translate))
     fields = {
         "FieldUnit": translate("Length unit:"),
         "DisplacementScale": translate("Scale"),
