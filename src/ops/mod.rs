@@ -1,5 +1,5 @@
 //! Operations on splines: interpolation, least squares, approximation, skinning, nearest points,
-//! intersections.
+//! intersections, rays.
 
 pub mod approximate;
 pub mod closest;
@@ -9,4 +9,5 @@ pub mod intersect;
 pub mod invert;
 pub mod least_squares;
 pub mod parametrise;
+pub mod ray;
 pub mod skin;

@@ -90,3 +90,35 @@ fn a_curve_that_leaves_another_at_a_corner_overlaps_up_to_it() {
     one_overlap("a corner", &all, [0.0, 0.5], [0.0, 0.5]);
     assert!(all.crossings.is_empty(), "{all:?}");
 }
+
+#[test]
+fn curves_beside_each_other_overlap_up_to_the_tolerance() {
+    let mut random = Random(9);
+    for case in 0..20 {
+        let a = curve(&mut random, 1 + case % 5, false).part(0.0, 0.1).unwrap();
+        for (off, expected) in [(0.5e-6, 1), (0.99e-6, 1), (1.02e-6, 0), (1.9e-6, 0), (2.1e-6, 0), (1e-5, 0)]
+        {
+            let [_, d, _] = a.derivatives(0.05);
+            let line = line((a.point(0.0) - d).into(), (a.point(0.0) + d).into());
+            let beside = line.mapped(|p| p + d.perp().normalize() * off).unwrap();
+            let all = curves(&line, &beside, 1e-6).unwrap();
+            assert_eq!(all.overlaps.len(), expected, "{case}, {off}: {all:?}");
+            assert!(all.crossings.is_empty(), "{case}, {off}: {all:?}");
+        }
+    }
+}
+
+#[test]
+fn a_closed_curve_and_itself_have_the_seam_in_their_overlap() {
+    let circle = |radius: f64| {
+        NurbsCurve::arc(DVec2::ZERO, DVec2::X * radius, DVec2::Y * radius, 0.0, std::f64::consts::TAU)
+            .unwrap()
+    };
+    let all = curves(&circle(2.0), &circle(2.0), 1e-9).unwrap();
+    one_overlap("a circle", &all, [0.0, 1.0], [0.0, 1.0]);
+    assert!(all.crossings.is_empty(), "{all:?}");
+    for off in [3e-9, 1e-8, 1e-3] {
+        let all = curves(&circle(2.0), &circle(2.0 + off), 1e-9).unwrap();
+        assert!(all.overlaps.is_empty() && all.crossings.is_empty(), "{off}: {all:?}");
+    }
+}

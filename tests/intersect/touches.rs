@@ -1,8 +1,9 @@
 //! Curves that touch.
 
+use crate::sample::{Random, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve, Point};
 use bladesmith::ops::intersect::{Kind, curves};
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DMat3, DVec2, DVec3};
 use std::f64::consts::TAU;
 
 fn circle(centre: DVec2, radius: f64) -> NurbsCurve<DVec2> {
@@ -26,7 +27,9 @@ fn circles_that_touch_do_so_once() {
 
 #[test]
 fn circles_that_miss_or_cut_by_more_than_the_tolerance_do_not_touch() {
-    for (off, expected) in [(1e-5, 0), (1.1e-7, 0), (-1e-5, 2), (-1e-6, 2), (-1e-3, 2)] {
+    for (off, expected) in
+        [(1e-5, 0), (1.1e-7, 0), (1.9e-7, 0), (-1.5e-7, 2), (-1e-5, 2), (-1e-6, 2), (-1e-3, 2)]
+    {
         let (a, b) = (circle(DVec2::ZERO, 2.0), circle(DVec2::new(3.0 + off, 0.0), 1.0));
         let all = curves(&a, &b, 1e-7).unwrap();
         assert_eq!(all.crossings.len(), expected, "{off}: {all:?}");
@@ -100,4 +103,46 @@ fn curves_in_space_meet_within_the_tolerance_only() {
     let all = curves(&a, &bezier(vec![at - d, at + d * 0.7]), 1e-9).unwrap();
     assert_eq!(all.crossings.len(), 1, "{all:?}");
     assert_eq!(all.crossings[0].kind, Kind::Tangential, "{all:?}");
+}
+
+#[test]
+fn random_curves_laid_on_each_other_touch_there() {
+    let mut random = Random(21);
+    for case in 0..400 {
+        let a = curve(&mut random, 1 + case % 7, case % 3 == 0);
+        let b = curve(&mut random, 2 + case / 7 % 6, case % 4 == 0);
+        let place = |random: &mut Random, c: &NurbsCurve<DVec2>| {
+            let (from, to) = c.knots().domain();
+            random.within(from, to)
+        };
+        let (s, t) = (place(&mut random, &a), place(&mut random, &b));
+        let ([p, d, _], [q, e, _]) = (a.derivatives(s), b.derivatives(t));
+        let turn = DMat2::from_angle(d.to_angle() - e.to_angle());
+        let b = b.mapped(|x| p + turn * (x - q)).unwrap();
+        let all = curves(&a, &b, 1e-9).unwrap();
+        let touch = all.crossings.iter().find(|c| c.kind == Kind::Tangential && c.point.distance(p) < 1e-3);
+        assert!(touch.is_some(), "{case}: {p} at {s}, {t} is not among {all:?}");
+    }
+}
+
+#[test]
+fn curves_turned_into_space_meet_as_in_the_plane() {
+    let mut random = Random(22);
+    let mut total = 0;
+    for case in 0..400 {
+        let a = curve(&mut random, 1 + case % 7, case % 3 == 0);
+        let b = curve(&mut random, 1 + case / 7 % 7, case % 4 == 0);
+        let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0 + case as f64);
+        let lifted = |c: &NurbsCurve<DVec2>| {
+            c.mapped(|p| turn * p.extend(0.0) + DVec3::new(10.0, -20.0, 5.0)).unwrap()
+        };
+        let (plane, space) = (curves(&a, &b, 1e-9).unwrap(), curves(&lifted(&a), &lifted(&b), 1e-9).unwrap());
+        assert_eq!(plane.crossings.len(), space.crossings.len(), "{case}: {plane:?}, {space:?}");
+        for (c, d) in plane.crossings.iter().zip(&space.crossings) {
+            let apart = (c.at[0] - d.at[0]).abs().max((c.at[1] - d.at[1]).abs());
+            assert!(apart < 1e-6 && c.kind == d.kind, "{case}: {c:?}, {d:?}");
+        }
+        total += plane.crossings.len();
+    }
+    assert!(total > 1000, "{total} crossings say little");
 }

@@ -5,10 +5,10 @@ use super::tree::Tree;
 use crate::nurbs::Point;
 
 /// Newton steps at most.
-const STEPS: usize = 16;
+pub const STEPS: usize = 16;
 /// A step of a parameter, of 0 to 1, after which one more would change nothing: convergence is
 /// quadratic.
-const SETTLED: f64 = 1e-10;
+pub const SETTLED: f64 = 1e-10;
 
 /// A piece of a curve: a node of its tree.
 pub type Piece<'a, P> = (&'a Tree<P>, usize);
@@ -48,10 +48,8 @@ impl<P: Point> Place<P> {
     }
 }
 
-/// The step from a place to where the tangents come nearest, within both pieces.
-fn step<P: Point>(place: &Place<P>) -> [f64; 2] {
-    let ([u, v], [d, e]) = (place.at, place.derivatives);
-    let gap = place.points[1] - place.points[0];
+/// The step within the unit square, from a place in it, after which `gap + e v − d u` is shortest.
+pub fn step<P: Point>([u, v]: [f64; 2], gap: P, [d, e]: [P; 2]) -> [f64; 2] {
     let (dd, de, ee) = (d.dot(d), d.dot(e), e.dot(e));
     let (gd, ge) = (gap.dot(d), gap.dot(e));
     // What is across the second curve keeps its digits where the tangents are nearly parallel.
@@ -65,16 +63,16 @@ fn step<P: Point>(place: &Place<P>) -> [f64; 2] {
             return free;
         }
     }
-    // The least of the quadratic on the sides of the square.
-    let side = |fixed: f64, t: f64, along: f64, squared: f64| {
+    // The least of the quadratic on the sides of the square, or with one parameter kept.
+    let along = |t: f64, along: f64, squared: f64| {
         let best = if squared > 0.0 { along / squared } else { 0.0 };
-        [fixed, (t + best).clamp(0.0, 1.0) - t]
+        (t + best).clamp(0.0, 1.0) - t
     };
-    let u_sides = [-u, 1.0 - u].map(|a| side(a, v, de * a - ge, ee));
-    let v_sides = [-v, 1.0 - v].map(|b| side(b, u, de * b + gd, dd)).map(|[b, a]| [a, b]);
-    let height = |[a, b]: [f64; 2]| (gap + e * b - d * a).dot(gap + e * b - d * a);
-    let all = [u_sides[0], u_sides[1], v_sides[0], v_sides[1]];
-    all.into_iter().min_by(|x, y| height(*x).total_cmp(&height(*y))).unwrap_or([0.0; 2])
+    let with_u = |a: f64| [a, along(v, de * a - ge, ee)];
+    let with_v = |b: f64| [along(u, de * b + gd, dd), b];
+    let height = |[a, b]: &[f64; 2]| (gap + e * *b - d * *a).dot(gap + e * *b - d * *a);
+    let all = [with_u(0.0), with_v(0.0), with_u(-u), with_u(1.0 - u), with_v(-v), with_v(1.0 - v)];
+    all.into_iter().min_by(|x, y| height(x).total_cmp(&height(y))).unwrap_or([0.0; 2])
 }
 
 /// Where the pieces come nearest to each other, sought from `start`; where they cross once, this
@@ -82,7 +80,8 @@ fn step<P: Point>(place: &Place<P>) -> [f64; 2] {
 pub fn nearest<P: Point>(pieces: [Piece<P>; 2], start: [f64; 2]) -> Place<P> {
     let mut place = Place::new(pieces, start);
     for _ in 0..STEPS {
-        let [a, b] = step(&place);
+        let gap = place.points[1] - place.points[0];
+        let [a, b] = step(place.at, gap, place.derivatives);
         let [u, v] = place.at;
         place = Place::new(pieces, [(u + a).clamp(0.0, 1.0), (v + b).clamp(0.0, 1.0)]);
         if a.abs() < SETTLED && b.abs() < SETTLED {

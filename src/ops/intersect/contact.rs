@@ -9,10 +9,15 @@ use crate::nurbs::Point;
 /// A contact is followed to where the distance is so many times the tolerance: what is within the
 /// tolerance next to it is then a part of it.
 const REACH: f64 = 2.0;
+/// Two pieces are beside each other if their distance varies by this part of what it is above the
+/// tolerance, at the ends and at places between.
+const EVEN: f64 = 0.03;
+/// Such places, plus one.
+const PLACES: usize = 10;
 /// Steps in which one side of a contact is followed.
 const STEPS: usize = 24;
-/// Halvings that bring the end of a contact near.
-const HALVINGS: usize = 12;
+/// The last step towards where a contact ends, as a part of the longest.
+const SMALLEST: f64 = 1.0 / 4096.0;
 /// Bisections that find the place of parallel tangents.
 const BISECTIONS: usize = 60;
 /// A contact not longer than so many tolerances is a point.
@@ -60,8 +65,9 @@ impl<P: Point> Search<P> {
         let Some([low, high]) = self.common(pair) else { return false };
         let reach = REACH * self.tolerance;
         let pieces = self.pieces(pair);
-        if [low, high].iter().any(|at| Place::new(pieces, *at).distance() > reach) {
-            return false;
+        let ends = [low, high].map(|at| Place::new(pieces, at).distance());
+        if ends.iter().any(|distance| *distance > reach) {
+            return self.is_beside(pair, [low, high], ends);
         }
         let on = |share: f64| {
             let u = low[0] + (high[0] - low[0]) * share;
@@ -78,6 +84,25 @@ impl<P: Point> Search<P> {
             self.follow(pair, global(inner[1]));
         }
         true
+    }
+
+    /// Whether two pieces keep so even a distance that they cannot come nearer between the places
+    /// looked at.
+    fn is_beside(&self, pair: [usize; 2], [low, high]: [[f64; 2]; 2], ends: [f64; 2]) -> bool {
+        let [first, second] = self.pieces(pair);
+        let is_even = |[least, most]: [f64; 2]| most - least <= EVEN * (least - self.tolerance);
+        let mut range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        for k in 1..PLACES {
+            if !is_even(range) {
+                return false;
+            }
+            let share = k as f64 / PLACES as f64;
+            let [u, v] = [0, 1].map(|side| low[side] + (high[side] - low[side]) * share);
+            let point = first.0.at(first.1, u)[0];
+            let distance = (second.0.at(second.1, foot(second, point, v))[0] - point).length();
+            range = [range[0].min(distance), range[1].max(distance)];
+        }
+        is_even(range)
     }
 
     /// The ends of the stretch that two pieces have in common, if both are graphs over one line:
@@ -116,7 +141,7 @@ impl<P: Point> Search<P> {
         track.extend(after);
         track.dedup();
         let long = self.extent(spans, &track) > SHORT * self.tolerance;
-        let is_overlap = low_forced && high_forced && long;
+        let is_overlap = low_forced && high_forced && long && self.is_within(spans, &track);
         if !is_overlap {
             track = self.even(spans, &track);
         }
@@ -145,6 +170,12 @@ impl<P: Point> Search<P> {
         Some([a?, b?])
     }
 
+    /// Whether a track keeps to the tolerance itself.
+    fn is_within(&self, spans: [usize; 2], track: &[[f64; 2]]) -> bool {
+        let pieces = self.pieces(spans);
+        track.iter().all(|at| Place::new(pieces, *at).distance() <= self.tolerance)
+    }
+
     /// The largest distance of the first curve's points of a track from the first of them.
     fn extent(&self, spans: [usize; 2], track: &[[f64; 2]]) -> f64 {
         let point = |u: f64| self.tree(0).at(spans[0], u)[0];
@@ -165,14 +196,12 @@ impl<P: Point> Search<P> {
         };
         let mut track = Vec::new();
         let mut last = Place::new(pieces, start);
-        for k in 1..=STEPS {
-            let u = start[0] + (end - start[0]) * k as f64 / STEPS as f64;
-            let next = on(u, &last);
-            if next.distance() <= reach {
-                track.push(next.at);
-                last = next;
-                continue;
-            }
+        let longest = (end - start[0]) / STEPS as f64;
+        let mut by = longest;
+        while by.abs() > longest.abs() * SMALLEST {
+            let is_last = (end - last.at[0]).abs() <= by.abs();
+            let next = on(if is_last { end } else { last.at[0] + by }, &last);
+            // Within the reach the first curve may already be behind the end of the second.
             if next.at[1] == 0.0 || next.at[1] == 1.0 {
                 let u = foot(pieces[0], next.points[1], last.at[0]);
                 let place = Place::new(pieces, [u, next.at[1]]);
@@ -181,19 +210,18 @@ impl<P: Point> Search<P> {
                     return (track, true);
                 }
             }
-            let (mut near, mut far) = (last.at[0], u);
-            for _ in 0..HALVINGS {
-                let place = on(0.5 * (near + far), &last);
-                if place.distance() <= reach {
-                    (near, last) = (place.at[0], place);
-                } else {
-                    far = place.at[0];
+            if next.distance() <= reach {
+                track.push(next.at);
+                if is_last {
+                    return (track, true);
                 }
+                last = next;
+                by = if (2.0 * by).abs() < longest.abs() { 2.0 * by } else { longest };
+                continue;
             }
-            track.push(last.at);
-            return (track, false);
+            by *= 0.5;
         }
-        (track, true)
+        (track, longest == 0.0)
     }
 
     /// Keeps the places of a contact at which the curves meet: that of parallel tangents if it is

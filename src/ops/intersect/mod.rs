@@ -6,11 +6,11 @@
 //! crossing of the chords lies in another pair). Where tangents are parallel, the stretch within
 //! the tolerance is followed: it is a touch, or an overlap.
 
-mod approach;
+pub(super) mod approach;
 mod contact;
 mod pairs;
 mod report;
-mod tree;
+pub(super) mod tree;
 
 use crate::error::{Error, Result};
 use crate::nurbs::{NurbsCurve, Point};
@@ -86,7 +86,7 @@ pub fn self_intersections<P: Point>(curve: &NurbsCurve<P>, tolerance: f64) -> Re
     Search::new(vec![Tree::new(curve, tolerance)], tolerance).run()
 }
 
-fn check(tolerance: f64) -> Result<()> {
+pub(super) fn check(tolerance: f64) -> Result<()> {
     if tolerance.is_finite() && tolerance > 0.0 {
         return Ok(());
     }

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::nurbs::Point;
 
 /// Pairs looked at in one search, at most.
-const PAIRS: usize = 4_000_000;
+const PAIRS: usize = 1_000_000;
 /// A piece not longer than this part of the tolerance is a point.
 const POINT: f64 = 0.25;
 /// The smallest tolerance, in units of the rounding of coordinates.

@@ -15,10 +15,10 @@ impl<P: Point> Search<P> {
     pub fn report(mut self) -> Intersections<P> {
         let overlaps = self.overlaps();
         let mut found = std::mem::take(&mut self.found);
-        found.retain(|f| !self.is_in_contact(f) && !self.is_no_loop(f));
         for f in &mut found {
-            f.at = [self.at_start(0, f.at[0]), self.at_start(1, f.at[1])];
+            f.at = self.at_starts(f.at);
         }
+        found.retain(|f| !self.is_in_contact(f) && !self.is_no_loop(f));
         if self.is_own() {
             found.iter_mut().filter(|f| f.at[0] > f.at[1]).for_each(Found::swap);
         }
@@ -33,11 +33,13 @@ impl<P: Point> Search<P> {
         Intersections { crossings: kept.iter().map(Found::crossing).collect(), overlaps }
     }
 
-    /// The start of a closed curve instead of its end.
-    fn at_start(&self, side: usize, t: f64) -> f64 {
-        let tree = self.tree(side);
-        let [a, b] = tree.domain;
-        if tree.closed && b - t <= 1e-12 * (b - a) { a } else { t }
+    /// The starts of closed curves instead of their ends.
+    fn at_starts(&self, at: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|side| {
+            let (tree, t) = (self.tree(side), at[side]);
+            let [a, b] = tree.domain;
+            if tree.closed && b - t <= 1e-12 * (b - a) { a } else { t }
+        })
     }
 
     /// Whether two places are one.
@@ -56,7 +58,8 @@ impl<P: Point> Search<P> {
     /// Whether a place is part of an overlap, or a crossing that belongs to a touch.
     fn is_in_contact(&self, f: &Found<P>) -> bool {
         self.contacts.iter().any(|c| {
-            c.is_overlap && (c.holds(f.at) || c.ends().iter().any(|end| self.is_near(f, *end)))
+            c.is_overlap
+                && (c.holds(f.at) || c.ends().iter().any(|end| self.is_near(f, self.at_starts(*end))))
                 || c.is_touch && f.kind == Kind::Transversal && c.holds(f.at)
         })
     }
@@ -92,16 +95,17 @@ impl<P: Point> Search<P> {
         };
         let mut all: Vec<Overlap> = self.contacts.iter().filter(|c| c.is_overlap).map(as_overlap).collect();
         all.sort_by(|a, b| a.first[0].total_cmp(&b.first[0]));
-        let slack = [0, 1].map(|side| {
-            let [a, b] = self.tree(side).domain;
-            1e-9 * (b - a)
-        });
+        let meet = |side: usize, s: f64, t: f64| {
+            let tree = self.tree(side);
+            let [a, b] = tree.domain;
+            let apart = (tree.point(s) - tree.point(t)).length();
+            (s - t).abs() <= 1e-3 * (b - a) && apart <= LOOP * self.tolerance
+        };
         let mut out: Vec<Overlap> = Vec::new();
         for next in all {
             let follows = |o: &Overlap| {
                 let rises = (o.second[1] - o.second[0]) * (next.second[1] - next.second[0]) > 0.0;
-                let gap = [next.first[0] - o.first[1], next.second[0] - o.second[1]];
-                rises && gap[0].abs() <= slack[0] && gap[1].abs() <= slack[1]
+                rises && meet(0, o.first[1], next.first[0]) && meet(1, o.second[1], next.second[0])
             };
             match out.iter_mut().find(|o| follows(o)) {
                 Some(known) => (known.first[1], known.second[1]) = (next.first[1], next.second[1]),

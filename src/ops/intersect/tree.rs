@@ -5,7 +5,7 @@ use crate::nurbs::{NurbsCurve, Point};
 
 /// Control points so near to each other, as a fraction of the coordinates, say nothing about a
 /// direction.
-const GRAIN: f64 = 4.0 * f64::EPSILON;
+pub const GRAIN: f64 = 4.0 * f64::EPSILON;
 
 /// Directions around an axis; what their half-angle says is kept as cosine and sine.
 #[derive(Debug, Clone, Copy)]
@@ -19,18 +19,18 @@ pub struct Cone<P> {
 }
 
 impl<P: Point> Cone<P> {
-    /// Around all steps from one control point to the next. The tangents of a rational curve with
-    /// positive weights lie in it as well: `w² C′` is a sum of such steps, none taken negatively.
-    fn new(points: &[P], grain: f64) -> Self {
-        let chord = points[points.len() - 1] - points[0];
-        let length = chord.length();
+    /// Around all steps longer than `grain`. For a curve these lead from one control point to the
+    /// next; the tangents of a rational curve with positive weights lie in it as well: `w² C′` is a
+    /// sum of such steps, none taken negatively.
+    pub fn new(steps: impl Iterator<Item = P> + Clone, grain: f64) -> Self {
+        let sum = steps.clone().fold(P::default(), |sum, step| sum + step);
+        let length = sum.length();
         if length <= grain {
             return Self { axis: P::default(), cosine: -1.0, sine: 0.0 };
         }
-        let axis = chord / length;
+        let axis = sum / length;
         let mut cosine = 1.0f64;
-        for pair in points.windows(2) {
-            let step = pair[1] - pair[0];
+        for step in steps {
             let length = step.length();
             if length > grain {
                 cosine = cosine.min(step.dot(axis) / length);
@@ -156,7 +156,8 @@ impl<P: Point> Tree<P> {
             (low, high) = (low.min(p), high.max(p));
         }
         let span = Some(span.unwrap_or(self.nodes.len()));
-        let (size, cone) = ((high - low).length(), Cone::new(points, self.grain));
+        let (size, cone) =
+            ((high - low).length(), Cone::new(points.windows(2).map(|w| w[1] - w[0]), self.grain));
         self.nodes.push(Node { range, low, high, size, cone, span, first, children: None });
         self.nodes.len() - 1
     }
