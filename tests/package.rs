@@ -9,10 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-#[path = "consumer/package.rs"]
-mod package;
+#[path = "consumer/installed.rs"]
+mod installed;
 
-use package::{Build, configure, data, install, lossy, prefix, root, run, scratch, succeed, valgrind};
+use installed::{Build, configure, data, install, lossy, prefix, root, run, scratch, succeed, valgrind};
 
 /// Programs that check themselves.
 const CHECKS: [&str; 3] = ["abi_errors", "threads", "owners"];

@@ -11,3 +11,4 @@ mod invert;
 mod layering;
 mod p5_files;
 mod package;
+mod ray;

@@ -1,6 +1,6 @@
 //! Curves that touch.
 
-use crate::sample::{Random, curve};
+use super::sample::{Random, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve, Point};
 use bladesmith::ops::intersect::{Kind, curves};
 use glam::{DMat2, DMat3, DVec2, DVec3};
