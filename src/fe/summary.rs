@@ -23,6 +23,9 @@ const IN_LINE: f64 = 1e-4;
 pub(crate) fn shortage(points: impl Iterator<Item = DVec3>) -> Option<String> {
     let points: Vec<DVec3> = points.collect();
     let needed = format!("a morph needs at least {FEWEST} that do not lie in one line");
+    if points.is_empty() {
+        return Some("no node has a displacement".into());
+    }
     if points.len() < FEWEST {
         return Some(format!("only {} with a displacement: {needed}", counted(points.len(), "node")));
     }

@@ -1,6 +1,6 @@
 //! Curves that run along each other.
 
-use crate::sample::{Random, curve};
+use super::sample::{Random, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve};
 use bladesmith::ops::intersect::{Intersections, Kind, curves, self_intersections};
 use glam::DVec2;

@@ -1,6 +1,6 @@
 //! Curves that meet themselves.
 
-use crate::sample::{Random, brute_force, curve};
+use super::sample::{Random, brute_force, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve};
 use bladesmith::ops::intersect::self_intersections;
 use glam::DVec2;

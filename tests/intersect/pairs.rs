@@ -1,6 +1,6 @@
 //! Two curves that cross.
 
-use crate::sample::{Random, brute_force, curve};
+use super::sample::{Random, brute_force, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve};
 use bladesmith::ops::intersect::{Intersections, Kind, curves};
 use glam::DVec2;
