@@ -35,6 +35,7 @@ pub trait Point:
     /// The largest coordinate.
     fn max_element(self) -> f64;
     /// Euclidean length.
+    #[inline]
     fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
@@ -42,24 +43,31 @@ pub trait Point:
 
 impl Point for DVec2 {
     const DIMENSION: usize = 2;
+    #[inline]
     fn coordinates(self) -> [f64; 3] {
         [self.x, self.y, 0.0]
     }
+    #[inline]
     fn from_coordinates([x, y, _]: [f64; 3]) -> Self {
         DVec2::new(x, y)
     }
+    #[inline]
     fn dot(self, other: Self) -> f64 {
         DVec2::dot(self, other)
     }
+    #[inline]
     fn is_finite(self) -> bool {
         DVec2::is_finite(self)
     }
+    #[inline]
     fn min(self, other: Self) -> Self {
         DVec2::min(self, other)
     }
+    #[inline]
     fn max(self, other: Self) -> Self {
         DVec2::max(self, other)
     }
+    #[inline]
     fn max_element(self) -> f64 {
         DVec2::max_element(self)
     }
@@ -67,24 +75,31 @@ impl Point for DVec2 {
 
 impl Point for DVec3 {
     const DIMENSION: usize = 3;
+    #[inline]
     fn coordinates(self) -> [f64; 3] {
         self.to_array()
     }
+    #[inline]
     fn from_coordinates(coordinates: [f64; 3]) -> Self {
         DVec3::from_array(coordinates)
     }
+    #[inline]
     fn dot(self, other: Self) -> f64 {
         DVec3::dot(self, other)
     }
+    #[inline]
     fn is_finite(self) -> bool {
         DVec3::is_finite(self)
     }
+    #[inline]
     fn min(self, other: Self) -> Self {
         DVec3::min(self, other)
     }
+    #[inline]
     fn max(self, other: Self) -> Self {
         DVec3::max(self, other)
     }
+    #[inline]
     fn max_element(self) -> f64 {
         DVec3::max_element(self)
     }

@@ -122,3 +122,14 @@ fn a_closed_curve_and_itself_have_the_seam_in_their_overlap() {
         assert!(all.overlaps.is_empty() && all.crossings.is_empty(), "{off}: {all:?}");
     }
 }
+
+#[test]
+fn a_curve_with_a_cusp_and_itself_are_one() {
+    let poles = [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]].map(DVec2::from).to_vec();
+    let cusp = NurbsCurve::new(KnotVector::clamped(3, &[0.0, 1.0]).unwrap(), poles, None).unwrap();
+    for (from, to) in [(0.0, 1.0), (0.1, 1.0), (0.2, 0.9)] {
+        let all = curves(&cusp, &cusp.part(from, to).unwrap(), 1e-9).unwrap();
+        one_overlap("a cusp", &all, [from, to], [from, to]);
+        assert!(all.crossings.is_empty(), "{from}, {to}: {all:?}");
+    }
+}

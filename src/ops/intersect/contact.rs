@@ -188,19 +188,20 @@ impl<P: Point> Search<P> {
     fn march(&self, spans: [usize; 2], start: [f64; 2], end: f64) -> (Vec<[f64; 2]>, bool) {
         let pieces = self.pieces(spans);
         let reach = REACH * self.tolerance;
-        let on = |u: f64, from: &Place<P>| {
-            let [d, e] = from.derivatives;
-            let ahead = d.dot(e) / e.dot(e).max(f64::MIN_POSITIVE) * (u - from.at[0]);
-            let v = (from.at[1] + ahead).clamp(0.0, 1.0);
+        let on = |u: f64, from: &Place<P>, slope: f64| {
+            let v = (from.at[1] + slope * (u - from.at[0])).clamp(0.0, 1.0);
             Place::new(pieces, [u, foot(pieces[1], pieces[0].0.at(pieces[0].1, u)[0], v)])
         };
         let mut track = Vec::new();
         let mut last = Place::new(pieces, start);
+        // Later that of the last step: at a cusp there are no tangents.
+        let [d, e] = last.derivatives;
+        let mut slope = d.dot(e) / e.dot(e).max(f64::MIN_POSITIVE);
         let longest = (end - start[0]) / STEPS as f64;
         let mut by = longest;
         while by.abs() > longest.abs() * SMALLEST {
             let is_last = (end - last.at[0]).abs() <= by.abs();
-            let next = on(if is_last { end } else { last.at[0] + by }, &last);
+            let next = on(if is_last { end } else { last.at[0] + by }, &last, slope);
             // Within the reach the first curve may already be behind the end of the second.
             if next.at[1] == 0.0 || next.at[1] == 1.0 {
                 let u = foot(pieces[0], next.points[1], last.at[0]);
@@ -215,6 +216,7 @@ impl<P: Point> Search<P> {
                 if is_last {
                     return (track, true);
                 }
+                slope = (next.at[1] - last.at[1]) / (next.at[0] - last.at[0]);
                 last = next;
                 by = if (2.0 * by).abs() < longest.abs() { 2.0 * by } else { longest };
                 continue;
