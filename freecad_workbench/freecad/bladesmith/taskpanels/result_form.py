@@ -57,7 +57,7 @@ class ResultForm(QtGui.QWidget):
         super().__init__()
         self.setWindowTitle(translate("Result of a morph"))
         layout = QtGui.QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
+        layout.setContentsMargins(0, 4, 0, 4)
         self.verdict = QtGui.QLabel(wordWrap=True)
         self.busy = QtGui.QProgressBar(maximum=100, textVisible=False, maximumHeight=6)
         self.report = QtGui.QPushButton()
@@ -220,7 +220,7 @@ class ResultForm(QtGui.QWidget):
 def _group(title: str):
     box = QtGui.QGroupBox(title)
     grid = QtGui.QGridLayout(box)
-    grid.setContentsMargins(8, 6, 8, 8)
+    grid.setContentsMargins(4, 6, 4, 8)
     grid.setVerticalSpacing(5)
     return box, grid
 
