@@ -1,7 +1,7 @@
 //! Evaluation against a reference of twice the digits: sums of two numbers (Dekker 1971).
 
 use super::*;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// A number of about 32 digits, `high + low`.
@@ -142,6 +142,7 @@ fn curves_are_right_to_eight_units_times_the_condition() {
                             let mut error = ((is[k][axis] - value) / unit).abs();
                             if k < 3 {
                                 error = error.max(((fast[0][k][axis] - value) / unit).abs());
+                                error = error.max(((c.derivatives(t)[k][axis] - value) / unit).abs());
                             }
                             if k == 0 {
                                 error = error.max(((points[0][axis] - value) / unit).abs());
@@ -160,4 +161,94 @@ fn curves_are_right_to_eight_units_times_the_condition() {
         }
     }
     println!("largest error: {worst} units times the condition");
+}
+
+/// A sum with the sum of the sizes of its terms.
+type Sum = (Twice, f64);
+
+/// One coordinate of the derivatives up to the second, `[k][l]`, with the sums of the sizes of what
+/// they are made of (eq. 4.20).
+fn surface_reference(s: &NurbsSurface, axis: usize, uv: DVec2) -> [[(f64, f64); 3]; 3] {
+    let table = |knots: &KnotVector, t: f64| {
+        let (p, span) = (knots.degree(), knots.span(t));
+        let of = |order| (span - p..=span).map(|i| function(knots.flat(), i, p, span, t, order)).collect();
+        (span - p, [0, 1, 2].map(|order| -> Vec<Twice> { of(order) }))
+    };
+    let ((first_u, nu), (first_v, nv)) = (table(s.knots_u(), uv.x), table(s.knots_v(), uv.y));
+    let (mut a, mut w) = ([[(ZERO, 0.0); 3]; 3], [[(ZERO, 0.0); 3]; 3]);
+    let add = |sum: &mut Sum, x: Twice| *sum = (sum.0 + x, sum.1 + x.0.abs());
+    for (k, l) in (0..3).flat_map(|k| (0..3 - k).map(move |l| (k, l))) {
+        for (i, &m) in nu[k].iter().enumerate() {
+            for (j, &n) in nv[l].iter().enumerate() {
+                let pole = (first_u + i) * s.knots_v().len() + first_v + j;
+                let n = m * n * Twice(s.weights().map_or(1.0, |w| w[pole]), 0.0);
+                add(&mut w[k][l], n);
+                add(&mut a[k][l], n * Twice(s.poles()[pole][axis], 0.0));
+            }
+        }
+    }
+    for (k, l) in (0..3).flat_map(|k| (0..3 - k).map(move |l| (k, l))) {
+        for (i, j) in (0..=k).flat_map(|i| (0..=l).map(move |j| (i, j))).skip(1) {
+            let factor = derivatives::binomial(k, i) * derivatives::binomial(l, j);
+            let (lower, weight) = (a[k - i][l - j], w[i][j]);
+            a[k][l].0 = a[k][l].0 - Twice(factor, 0.0) * weight.0 * lower.0;
+            a[k][l].1 += factor * weight.1 * lower.1;
+        }
+        a[k][l] = (a[k][l].0 / w[0][0].0, a[k][l].1 / w[0][0].0.0);
+    }
+    a.map(|row| row.map(|(value, size)| (value.0, size)))
+}
+
+/// A surface of these degrees over the knots of two wild curves.
+fn wild_surface(degrees: [usize; 2], seed: usize, rational: bool) -> NurbsSurface {
+    let curves = [wild(degrees[0], seed, true), wild(degrees[1], seed + 3, true)];
+    let [u, v] = curves.each_ref();
+    let pairs = || u.poles().iter().flat_map(|&a| v.poles().iter().map(move |&b| (a, b)));
+    let poles = pairs().map(|(a, b)| DVec3::new(a.x * 7.0 - b.x, a.y - b.y, a.z + 30.0 * b.x)).collect();
+    let weight = |(a, b): (&f64, &f64)| (a * b).clamp(1e-3, 1e3);
+    let (wu, wv) = (u.weights().unwrap_or_default(), v.weights().unwrap_or_default());
+    let weights = wu.iter().flat_map(|a| wv.iter().map(move |b| weight((a, b)))).collect();
+    let knots = curves.map(|c| c.knots().clone());
+    let [ku, kv] = knots;
+    NurbsSurface::new(ku, kv, poles, rational.then_some(weights)).expect("a surface")
+}
+
+#[test]
+fn surfaces_are_right_to_eight_units_times_the_condition() {
+    let places = |knots: &KnotVector| {
+        let breaks = knots.breaks();
+        let between = breaks.windows(2).map(|w| w[0] + 0.37 * (w[1] - w[0])).collect::<Vec<f64>>();
+        [breaks, between].concat().into_iter().step_by(2).collect::<Vec<f64>>()
+    };
+    for degree in 1..=9 {
+        for (seed, rational) in [(0, false), (1, true), (2, true)] {
+            let s = wild_surface([degree, (4 * degree + seed) % 9 + 1], seed, rational);
+            let evaluator = SurfaceEvaluator::new(&s);
+            let (us, vs) = (places(s.knots_u()), places(s.knots_v()));
+            for uv in us.iter().flat_map(|&u| vs.iter().map(move |&v| DVec2::new(u, v))) {
+                let (jet, points) = (s.derivatives_to(uv.x, uv.y, 2), evaluator.points(&[uv]));
+                let of = |d: SurfaceDerivatives| [[d.s, d.v, d.vv], [d.u, d.uv, d.uu], [d.uu; 3]];
+                let ways = [of(s.derivatives(uv.x, uv.y)), of(evaluator.derivatives(&[uv])[0])];
+                for axis in 0..3 {
+                    let expected = surface_reference(&s, axis, uv);
+                    for (k, l) in (0..3).flat_map(|k| (0..3 - k).map(move |l| (k, l))) {
+                        let (value, size) = expected[k][l];
+                        let unit = f64::EPSILON * size + f64::MIN_POSITIVE;
+                        let mut answers = vec![jet[k][l], ways[0][k][l], ways[1][k][l]];
+                        if (k, l) == (0, 0) {
+                            answers.extend([points[0], s.point(uv.x, uv.y)]);
+                        }
+                        for (way, answer) in answers.iter().enumerate() {
+                            let error = ((answer[axis] - value) / unit).abs();
+                            assert!(
+                                error <= 8.0,
+                                "degree {degree}, seed {seed}, rational {rational}, {uv}, derivative {k} {l}, \
+                                 way {way}, axis {axis}: off by {error} units"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! NURBS curves in two and three dimensions.
 
 use super::basis::{KnotVector, MAX_DEGREE};
+use super::derivatives::origin;
 use crate::error::{Error, Result};
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Div, Mul, Sub};
@@ -192,9 +193,10 @@ impl<P: Point> NurbsCurve<P> {
         let mut n = [0.0; 3 * (MAX_DEGREE + 1)];
         self.knots.basis_derivatives(span, t, 2, &mut n);
         let first = span - p;
-        // Differences from a pole of the span keep the digits of the derivatives on short spans.
-        let origin = self.poles[span];
-        let base = self.weights.as_ref().map_or(1.0, |w| w[span]);
+        // Differences keep the digits of the derivatives on short spans.
+        let weights = self.weights.iter().flat_map(|w| w[first..=span].iter().copied());
+        let (origin, base) = origin(self.poles[first..=span].iter().copied(), weights);
+        let base = if self.weights.is_some() { base } else { 1.0 };
         let mut a = [P::default(); 3];
         let mut w = [0.0; 3];
         for d in 0..3 {

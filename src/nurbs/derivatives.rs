@@ -43,12 +43,15 @@ impl KnotVector {
 }
 
 /// What differences are taken from, point and weight.
-fn origin<P: Point>(poles: impl Iterator<Item = P> + Clone, weights: impl Iterator<Item = f64>) -> (P, f64) {
-    let mut nearest = [0.0; 3];
-    for (k, least) in nearest.iter_mut().enumerate().take(P::DIMENSION) {
-        let along = poles.clone().map(|p| p.coordinates()[k]);
-        *least = along.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
-    }
+#[inline]
+pub(super) fn origin<P: Point>(
+    poles: impl Iterator<Item = P>,
+    weights: impl Iterator<Item = f64>,
+) -> (P, f64) {
+    let nearest = poles.fold([f64::INFINITY; 3], |least, pole| {
+        let x = pole.coordinates();
+        std::array::from_fn(|k| if x[k].abs() < least[k].abs() { x[k] } else { least[k] })
+    });
     (P::from_coordinates(nearest), weights.fold(f64::INFINITY, f64::min))
 }
 

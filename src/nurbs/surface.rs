@@ -2,6 +2,7 @@
 
 use super::basis::{KnotVector, MAX_DEGREE};
 use super::curve::check_poles;
+use super::derivatives::origin;
 use crate::error::Result;
 use glam::DVec3;
 
@@ -105,8 +106,8 @@ impl NurbsSurface {
         }
     }
 
-    /// Derivatives are summed over differences from a pole of the span, so that those on short
-    /// spans do not lose the digits of the position.
+    /// Derivatives are summed over differences from what is nearest to zero on the span, so that
+    /// those on short spans do not lose the digits of the position.
     #[inline(always)]
     fn polynomial_jet<const K: usize, const W: usize>(
         &self,
@@ -118,7 +119,8 @@ impl NurbsSurface {
         let (su, nu) = self.knots_u.functions::<K, W>(u);
         let (sv, nv) = self.knots_v.functions::<K, W>(v);
         let columns = self.knots_v.len();
-        let origin = if K > 1 { self.poles[su * columns + sv] } else { DVec3::ZERO };
+        let near = (su - p..=su).flat_map(|i| &self.poles[i * columns + sv - q..=i * columns + sv]);
+        let origin = if K > 1 { origin(near.copied(), std::iter::empty()).0 } else { DVec3::ZERO };
         let mut jet = [[DVec3::ZERO; K]; K];
         for i in 0..=p {
             let first = (su - p + i) * columns + sv - q;
@@ -145,8 +147,9 @@ impl NurbsSurface {
         let (su, nu) = self.knots_u.functions::<K, { MAX_DEGREE + 1 }>(u);
         let (sv, nv) = self.knots_v.functions::<K, { MAX_DEGREE + 1 }>(v);
         let columns = self.knots_v.len();
-        let last = su * columns + sv;
-        let (origin, base) = (self.poles[last], weights[last]);
+        let rows = || (su - p..=su).map(|i| i * columns + sv - q..=i * columns + sv);
+        let poles = rows().flat_map(|row| self.poles[row].iter().copied());
+        let (origin, base) = origin(poles, rows().flat_map(|row| weights[row].iter().copied()));
         let (mut jet, mut total) = ([[DVec3::ZERO; K]; K], [[0.0; K]; K]);
         for i in 0..=p {
             let first = (su - p + i) * columns + sv - q;
