@@ -28,7 +28,7 @@ impl KnotVector {
             Side::Above => self.span(u),
             Side::Below => {
                 let before = flat[..=self.len()].partition_point(|&k| k < u);
-                if before <= p { self.span(u) } else { before - 1 }
+                if before <= p || before > self.len() { self.span(u) } else { before - 1 }
             }
         }
     }
@@ -177,6 +177,8 @@ mod tests {
             assert_eq!(c.derivatives_from(side, 0.0, 2), c.derivatives_to(0.0, 2));
             assert_eq!(c.derivatives_from(side, 3.0, 2), c.derivatives_to(3.0, 2));
             assert_eq!(c.derivatives_from(side, 0.7, 2), c.derivatives_to(0.7, 2));
+            assert_eq!(c.derivatives_from(side, -0.5, 2), c.derivatives_to(-0.5, 2));
+            assert_eq!(c.derivatives_from(side, 3.5, 2), c.derivatives_to(3.5, 2));
         }
     }
 
