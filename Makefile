@@ -9,11 +9,12 @@ EXAMPLE := examples/compressor_blade
 DEMO := build/demo
 TEST_PYTHON := build/venv/bin/python
 RUFF := build/venv/bin/ruff
-PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches cmake tools
+PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python benches cmake docs tools
 
 export PYTHON DESTDIR
 
-.PHONY: help setup setup-run build test test-rust test-python awkward-files demo docs lint bench dist install uninstall clean
+.PHONY: help setup setup-run build test test-rust test-python awkward-files demo docs lint format bench dist install \
+    uninstall clean
 
 help:
 	@echo "make demo     morph a compressor blade; leaves STEP, report and pictures in $(DEMO)"
@@ -22,6 +23,7 @@ help:
 	@echo "make install  install library and command below PREFIX (now $(PREFIX))"
 	@echo "make uninstall  remove what make install put below PREFIX"
 	@echo "make lint     check format and lints"
+	@echo "make format   put sources into shape"
 	@echo "make docs     draw the pictures of the documentation and build its pages, with a link check"
 	@echo "make bench    measure times and memory"
 	@echo "make dist     pack the sources, and the add-on for FreeCAD, into build/"
@@ -43,7 +45,7 @@ test-rust: setup
 	cargo test --release --locked
 
 awkward-files: setup
-	@cargo test --release --locked --quiet --test p5_files >/dev/null
+	@cargo test --release --locked --quiet --test rooms p5_files >/dev/null
 
 test-python: setup build awkward-files
 	cd tests/python && ../../$(TEST_PYTHON) -m unittest discover --start-directory . --pattern 'test_*.py'
@@ -59,13 +61,12 @@ demo: build
 	@echo "  report.json         all figures"
 	@echo "  report/report.html  the page, and its pictures beside it"
 
-docs: setup build
-	@test -x build/docs-venv/bin/mkdocs || { $(PYTHON) -m venv build/docs-venv && \
-	    build/docs-venv/bin/pip install --quiet --disable-pip-version-check -r docs/requirements.txt; }
+docs: build
+	@bash .ci/setup docs
 	cd tests/python && ../../$(TEST_PYTHON) -m unittest \
 	    test_window.Window.test_a_users_walk_with_the_blade test_result_window
 	cd build/screenshots && cp $(notdir $(shell grep -oh 'pictures/[a-z0-9-]*\.png' docs/*.md | sort -u)) ../../docs/pictures/
-	build/docs-venv/bin/mkdocs build --strict --quiet
+	build/docs-venv/bin/python -m mkdocs build --strict --quiet
 	@echo "The pages are in $(abspath build/docs)/index.html"
 
 lint: setup
@@ -73,6 +74,10 @@ lint: setup
 	cargo clippy --release --locked --all-targets --quiet -- -D warnings
 	$(RUFF) check --quiet $(PYTHON_SOURCES)
 	$(RUFF) format --check --quiet $(PYTHON_SOURCES)
+
+format: setup
+	cargo fmt
+	$(RUFF) format --quiet $(PYTHON_SOURCES)
 
 bench: build
 	$(PYTHON) benches/morph_command.py

@@ -70,15 +70,18 @@ install -d "$target"
 for header in bladesmith.h bladesmith.hpp core.hpp curve.hpp surface.hpp; do
     put 644 "$root/include/bladesmith/$header" "include/bladesmith/$header"
 done
+# Beside what debuggers need the archive holds bitcode for Rust's linker: three quarters of it.
 for library in libbladesmith.so libbladesmith.a; do
-    strip --strip-debug -o "$work/$library" "$built/$library"
+    strip --strip-debug --remove-section=.llvmbc --remove-section=.llvmcmd -o "$work/$library" "$built/$library"
 done
 put 755 "$work/libbladesmith.so" "lib/libbladesmith.so.$abi"
 link "libbladesmith.so.$abi" lib/libbladesmith.so
 put 644 "$work/libbladesmith.a" lib/libbladesmith.a
 fill bladesmithConfig.cmake.in lib/cmake/bladesmith/bladesmithConfig.cmake
 fill bladesmithConfigVersion.cmake.in lib/cmake/bladesmith/bladesmithConfigVersion.cmake
-fill bladesmith.pc.in lib/pkgconfig/bladesmith.pc
+for package in bladesmith bladesmith-static; do
+    fill "$package.pc.in" "lib/pkgconfig/$package.pc"
+done
 
 find "$root/freecad_workbench/freecad" -type f ! -name '*.pyc' >"$work/sources"
 sort "$work/sources" | while read -r source; do

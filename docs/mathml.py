@@ -10,12 +10,27 @@ _BLOCK = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
 _INLINE = re.compile(r"\$(?=\S)([^$]+?)(?<=\S)\$")
 _PLACE = re.compile(r"equation(\d+)noitauqe")
 
+_BOLD = re.compile(r'<mi mathvariant="bold">([A-Za-z])</mi>')
+_PRIMED = re.compile(r"<msup>(<mi.*?</mi>)<mi>&#x02032;</mi></msup>")
+
 _equations: list[str] = []
+
+
+def _bold(match: re.Match) -> str:
+    """A letter of Unicode's bold alphabet: browsers know no other bold in equations."""
+    letter, code = ("A", 0x1D400) if match[1].isupper() else ("a", 0x1D41A)
+    return f"<mi>&#x{ord(match[1]) - ord(letter) + code:X};</mi>"
+
+
+def _mathml(latex: str, display: str) -> str:
+    mathml = _BOLD.sub(_bold, convert(latex, display=display))
+    # The sign is small and raised by itself: as an exponent it would be so twice.
+    return _PRIMED.sub(r'\1<mo lspace="0" rspace="0">&#x02032;</mo>', mathml)
 
 
 def _set_aside(display: str):
     def place(match: re.Match) -> str:
-        _equations.append(convert(match[1].strip(), display=display))
+        _equations.append(_mathml(match[1].strip(), display))
         return f"equation{len(_equations) - 1}noitauqe"
 
     return place

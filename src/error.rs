@@ -78,7 +78,22 @@ pub enum Error {
     },
 }
 
+/// A number of things, for messages: `1 face`, `2 faces`.
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 impl Error {
+    /// A file that cannot be opened or read, with the system's reason.
+    pub(crate) fn io(path: &str, cause: &std::io::Error) -> Self {
+        let mut why = cause.to_string();
+        // Rust adds the number, which says no more than the words.
+        if let Some(number) = why.find(" (os error") {
+            why.truncate(number);
+        }
+        Error::Io { path: path.into(), why: why + "; give an existing, readable file" }
+    }
+
     /// The status number of the C ABI.
     pub fn code(&self) -> i32 {
         match self {

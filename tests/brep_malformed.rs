@@ -9,7 +9,7 @@ const CATALOGUE: &str = include_str!("data/brep/catalogue.brep");
 const THREE_SOLIDS: &str = include_str!("data/brep/three_solids.brep");
 
 thread_local! {
-    /// The largest single allocation of this test so far.
+    /// The largest single allocation of this thread so far.
     static LARGEST: Cell<usize> = const { Cell::new(0) };
 }
 

@@ -75,7 +75,7 @@ fn the_header_is_that_of_the_sources() {
     assert!(
         expected == committed,
         "include/bladesmith/bladesmith.h is not that of src/ffi (first difference at line {}): \
-         run BLADESMITH_UPDATE_HEADER=1 cargo test --test header",
+         run BLADESMITH_UPDATE_HEADER=1 cargo test --test rooms header",
         differs.unwrap_or_else(|| expected.lines().count().min(committed.lines().count())) + 1
     );
 }

@@ -198,6 +198,23 @@ fn no_source_is_longer_than_500_lines() {
     assert!(wrong.is_empty(), "split these:\n{}", wrong.join("\n"));
 }
 
+#[test]
+fn every_test_is_run() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |name: &str| fs::read_to_string(root.join(name)).expect("a readable source");
+    let listed = read("tests/rooms.rs") + &read("Cargo.toml");
+    for entry in fs::read_dir(root.join("tests")).expect("a readable folder") {
+        let path = entry.expect("a readable folder").path();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let line = match path.extension() {
+            Some(extension) if extension == "rs" && name != "rooms" => format!("\nmod {name};\n"),
+            _ if path.join("main.rs").exists() => format!("{name}/main.rs\""),
+            _ => continue,
+        };
+        assert!(listed.contains(&line), "tests/{name} is missing in tests/rooms.rs");
+    }
+}
+
 /// What a line of Python imports: dots of a relative import, and the dotted names.
 fn python_imports(line: &str) -> Vec<(usize, String)> {
     let line = line.split('#').next().unwrap_or_default().trim();

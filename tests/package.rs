@@ -121,14 +121,24 @@ fn the_examples_give_the_part_of_the_crate_with_any_number_of_threads() {
 }
 
 #[test]
-fn the_examples_say_what_is_wrong() {
-    let missing = ["no such.brep", "no such.frd", "1", "out.brep"];
+fn the_examples_say_what_is_wrong_at_once_and_leave_nothing_behind() {
+    let folder = scratch("wrong");
+    let (part, field) = (data("bar.brep").display().to_string(), data("bar.frd.gz").display().to_string());
+    let cases = [
+        (vec![], "usage: morph"),
+        (vec!["no such.brep", &field, "1", "cold.brep"], "no such.brep: cannot be read"),
+        (vec![&part, "no such.frd", "1", "cold.brep"], "no such.frd"),
+        (vec![&part, &field, "-1x", "cold.brep"], "-1x: FACTOR must be a number"),
+        (vec![&part, &field, "", "cold.brep"], ": FACTOR must be a number"),
+        (vec![&part, &field, "1", "no such folder/cold.brep"], "no such folder/cold.brep: cannot be written"),
+    ];
     for program in EXAMPLES.iter().flat_map(|name| Build::Plain.programs(name)) {
-        for arguments in [&missing[..], &[]] {
-            let output = run(Command::new(&program).args(arguments));
+        for (arguments, expected) in &cases {
+            let output = run(Command::new(&program).args(arguments).current_dir(&folder));
             let said = lossy(&output.stderr);
-            let expected = if arguments.is_empty() { "usage: morph" } else { "no such.brep cannot be read" };
             assert!(!output.status.success() && said.contains(expected), "{program:?}: {said}");
+            assert!(!said.contains('%'), "{program:?} began the morph: {said}");
+            assert_eq!(tree(&folder), BTreeSet::new(), "{program:?} {arguments:?}");
         }
     }
 }
@@ -186,43 +196,63 @@ fn cmake_takes_the_series_that_is_installed_and_no_other() {
     }
 }
 
-/// The flags that pkg-config gives for the package below `prefix`, as a shell would split them.
-fn pkg_config(prefix: &Path, options: &[&str]) -> String {
+/// What pkg-config gives for a package below `prefix`, as a shell would split it.
+fn pkg_config(prefix: &Path, question: &[&str]) -> String {
     let mut ask = Command::new("pkg-config");
-    ask.env("PKG_CONFIG_PATH", prefix.join("lib/pkgconfig")).args(options);
-    lossy(&succeed(ask.arg("bladesmith")).stdout).trim().to_owned()
+    ask.env("PKG_CONFIG_PATH", prefix.join("lib/pkgconfig")).args(question);
+    lossy(&succeed(&mut ask).stdout).trim().to_owned()
 }
 
 /// Compiles an example with the flags of pkg-config.
-fn compile_by_pkg_config(prefix: &Path, options: &[&str], folder: &Path) -> PathBuf {
+fn compile_by_pkg_config(prefix: &Path, question: &[&str], folder: &Path) -> PathBuf {
     let program = folder.join("morph");
     let source = root().join("examples/c/morph.c");
     let command = format!(
         "gcc -std=c99 -Wall -Wextra -pedantic -Werror '{}' -o '{}' {}",
         source.display(),
         program.display(),
-        pkg_config(prefix, options)
+        pkg_config(prefix, question)
     );
     succeed(Command::new("sh").args(["-c", &command]));
     program
 }
 
 #[test]
-fn pkg_config_finds_the_package_shared_and_static() {
-    assert_eq!(pkg_config(prefix(), &["--modversion"]), env!("CARGO_PKG_VERSION"));
+fn pkg_config_finds_the_shared_library() {
+    assert_eq!(pkg_config(prefix(), &["--modversion", "bladesmith"]), env!("CARGO_PKG_VERSION"));
     let folder = scratch("pkg-config-shared");
-    let shared = compile_by_pkg_config(prefix(), &["--cflags", "--libs"], &folder);
+    let shared = compile_by_pkg_config(prefix(), &["--cflags", "--libs", "bladesmith"], &folder);
     morph_bar(Command::new(shared).env("LD_LIBRARY_PATH", prefix().join("lib")), &folder);
+}
 
-    // Beside a shared library the linker takes that one: here is none.
+#[test]
+fn pkg_config_finds_the_static_library_beside_the_shared_one() {
+    let package = "bladesmith-static";
+    assert_eq!(pkg_config(prefix(), &["--modversion", package]), env!("CARGO_PKG_VERSION"));
     let folder = scratch("pkg-config-static");
+    let linked = compile_by_pkg_config(prefix(), &["--cflags", "--libs", package], &folder);
+    morph_bar(&mut Command::new(linked), &folder);
+}
+
+#[test]
+fn pkg_config_links_the_archive_where_it_is_alone() {
+    let folder = scratch("pkg-config-alone");
     let archive_only = folder.join("prefix");
     install(&archive_only);
     for name in ["libbladesmith.so", "libbladesmith.so.1"] {
         fs::remove_file(archive_only.join("lib").join(name)).expect("it was installed");
     }
-    let linked = compile_by_pkg_config(&archive_only, &["--static", "--cflags", "--libs"], &folder);
+    let question = ["--static", "--cflags", "--libs", "bladesmith"];
+    let linked = compile_by_pkg_config(&archive_only, &question, &folder);
     morph_bar(&mut Command::new(linked), &folder);
+}
+
+#[test]
+fn the_installed_libraries_hold_machine_code_and_little_else() {
+    for (name, most) in [("libbladesmith.so", 10), ("libbladesmith.a", 30)] {
+        let size = fs::metadata(prefix().join("lib").join(name)).expect("it is installed").len();
+        assert!(size < most << 20, "{name} has {size} bytes");
+    }
 }
 
 /// All files, links and folders below a folder, by their paths in it.

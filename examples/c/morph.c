@@ -9,31 +9,36 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Says which call failed and why; what is still owned goes with the program. */
+/* The result while it is written; it gets its name when it is whole. */
+static char partial[FILENAME_MAX];
+static FILE *output = NULL;
+
+/* Ends the program; what memory is still owned goes with it. */
+static void stop(const char *what, const char *why)
+{
+    fprintf(stderr, "%s: %s\n", what, why);
+    if (output)
+        remove(partial);
+    exit(EXIT_FAILURE);
+}
+
 static void need(int32_t status, const char *what)
 {
-    if (status != BLADESMITH_STATUS_OK) {
-        fprintf(stderr, "%s: status %d: %s\n", what, (int)status, bladesmith_last_error());
-        exit(EXIT_FAILURE);
-    }
+    if (status != BLADESMITH_STATUS_OK)
+        stop(what, bladesmith_last_error());
 }
 
 static char *read_text(const char *path, size_t *length)
 {
     FILE *file = fopen(path, "rb");
-    char *text = NULL;
-    size_t room = 0, got = 0;
-    do {
-        *length = room > 0 ? *length + got : 0;
-        room = *length + 65536;
-        text = file ? realloc(text, room) : NULL;
-        got = text ? fread(text + *length, 1, room - *length, file) : 0;
-    } while (got > 0);
-    if (!text || ferror(file)) {
-        fprintf(stderr, "%s cannot be read\n", path);
-        exit(EXIT_FAILURE);
-    }
+    long size = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    char *text = size > 0 ? malloc((size_t)size) : NULL;
+    if (text)
+        rewind(file);
+    if (!text || fread(text, 1, (size_t)size, file) != (size_t)size)
+        stop(path, "cannot be read");
     fclose(file);
+    *length = (size_t)size;
     return text;
 }
 
@@ -51,6 +56,17 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: morph HOT.brep FIELD.frd FACTOR COLD.brep (Bladesmith %s)\n", bladesmith_version());
         return EXIT_FAILURE;
     }
+    bladesmith_morph_options options;
+    char *end = NULL;
+    bladesmith_morph_options_init(&options, sizeof options);
+    options.solid_name = argv[1];
+    options.factor = strtod(argv[3], &end);
+    if (end == argv[3] || *end != '\0')
+        stop(argv[3], "FACTOR must be a number");
+    snprintf(partial, sizeof partial, "%s.partial", argv[4]);
+    if ((output = fopen(partial, "wb")) == NULL)
+        stop(argv[4], "cannot be written");
+
     size_t length = 0;
     char *text = read_text(argv[1], &length);
     bladesmith_part *hot = NULL, *cold = NULL;
@@ -59,11 +75,6 @@ int main(int argc, char **argv)
     need(bladesmith_part_read(text, length, argv[1], &hot), "reading the part");
     free(text);
     need(bladesmith_field_read(argv[2], NULL, 0, &field), "reading the field");
-
-    bladesmith_morph_options options;
-    bladesmith_morph_options_init(&options, sizeof options);
-    options.factor = strtod(argv[3], NULL);
-    options.solid_name = argv[1];
     need(bladesmith_morph(hot, field, &options, show, NULL, &morphed), "morphing");
     bladesmith_part_free(hot);
     bladesmith_field_free(field);
@@ -81,11 +92,8 @@ int main(int argc, char **argv)
     text = malloc(length + 1);
     need(bladesmith_part_write(cold, text, length + 1, &length), "writing the part");
     bladesmith_part_free(cold);
-    FILE *file = fopen(argv[4], "wb");
-    int written = file && fwrite(text, 1, length, file) == length;
-    written = file && fclose(file) == 0 && written;
+    if (fwrite(text, 1, length, output) != length || fclose(output) != 0 || rename(partial, argv[4]) != 0)
+        stop(argv[4], "cannot be written");
     free(text);
-    if (!written)
-        fprintf(stderr, "%s cannot be written\n", argv[4]);
-    return written ? EXIT_SUCCESS : EXIT_FAILURE;
+    return EXIT_SUCCESS;
 }

@@ -2,7 +2,7 @@
 
 use super::Field;
 use super::elements::Elements;
-use super::nodes::{NodeIndex, Rows, count, first_few};
+use super::nodes::{NodeIndex, Rows, first_few, named};
 use super::source::{Source, Step};
 use super::surface::{self, Surface};
 use crate::error::{Error, Result};
@@ -53,8 +53,8 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
     }
     let moved = parts.nodes.sort();
     if !moved.is_empty() {
-        let (count, ids) = (count(&moved), first_few(&moved));
-        return refuse(format!("{count} with several different positions: {ids}; each node must have one"));
+        let which = named(&moved);
+        return refuse(format!("{which} with several different positions; each node must have one"));
     }
     if let Some(why) = unusable(&parts.nodes, "coordinates") {
         return refuse(why);
@@ -65,9 +65,8 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
         return refuse(format!("{why}; the solution has diverged, or these nodes must be left out"));
     }
     if !conflicts.is_empty() {
-        let (count, ids) = (count(&conflicts), first_few(&conflicts));
-        warnings
-            .push(format!("{count} with several different displacements, of which the last is used: {ids}"));
+        let which = named(&conflicts);
+        warnings.push(format!("{which} with several different displacements, of which the last is used"));
     }
     let Rows { ids, values: points } = parts.nodes;
     let (displacements, strangers) = match_up(&ids, &parts.displacements);
@@ -101,8 +100,7 @@ pub(super) fn assemble(mut parts: Parts) -> Result<Field> {
 fn unusable(rows: &Rows, what: &str) -> Option<String> {
     let bad = |(id, value): (&i64, &DVec3)| (!value.is_finite()).then_some(*id);
     let ids: Vec<i64> = rows.ids.iter().zip(&rows.values).filter_map(bad).collect();
-    let (count, first) = (count(&ids), first_few(&ids));
-    (!ids.is_empty()).then(|| format!("{count} with {what} that are no numbers (NaN or infinite): {first}"))
+    (!ids.is_empty()).then(|| format!("{} with {what} that are no numbers (NaN or infinite)", named(&ids)))
 }
 
 /// Displacements in the order of `ids`, NaN where there is none, and the number of rows left over;
@@ -144,10 +142,9 @@ impl Field {
         if !lost.is_empty() {
             lost.sort_unstable();
             lost.dedup();
-            let (count, first) = (count(&lost), first_few(&lost));
-            self.warnings.push(format!(
-                "{count} of the elements without coordinates: {first}; the mesh's surface is not used"
-            ));
+            let which = named(&lost);
+            self.warnings
+                .push(format!("{which} of the elements without coordinates; the mesh's surface is not used"));
             return;
         }
         self.take_surface(surface::extract(&elements.kinds, &nodes, self.ids.len()));

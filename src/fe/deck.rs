@@ -9,7 +9,7 @@ use super::input::Input;
 use super::nodes::{NodeIndex, Rows, first_few};
 use super::scan;
 use super::source::Format;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use glam::DVec3;
 use std::path::Path;
 
@@ -50,7 +50,8 @@ pub(super) fn read(path: &Path) -> Result<Deck> {
     let mut section = Section::Other;
     deck.add(path, &mut section, 0)?;
     if let Section::Element(kind, missing @ 1..) = section {
-        let why = format!("the deck is truncated: its last {kind} element lacks {missing} nodes");
+        let why =
+            format!("the deck is truncated: its last {kind} element lacks {}", counted(missing, "node"));
         return Err(Error::Field { path: deck.name, line: 0, why });
     }
     if deck.nodes.len() == 0 {
@@ -97,7 +98,8 @@ impl Deck {
         depth: usize,
     ) -> Result<()> {
         if let Section::Element(kind, missing @ 1..) = section {
-            return Err(input.error(format!("the {kind} element before this line lacks {missing} nodes")));
+            return Err(input
+                .error(format!("the {kind} element before this line lacks {}", counted(*missing, "node"))));
         }
         let keyword = Keyword::of(line);
         let next = match keyword.name.as_str() {

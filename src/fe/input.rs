@@ -39,7 +39,7 @@ impl Input {
     /// [`Error::Io`] if it cannot be opened, [`Error::Field`] if it is packed in another way.
     pub fn open(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
-        let io = |cause: std::io::Error| Error::Io { path: name.clone(), why: cause.to_string() };
+        let io = |cause: std::io::Error| Error::io(&name, &cause);
         let mut file = BufReader::with_capacity(CHUNK, File::open(path).map_err(io)?);
         let head = file.fill_buf().map_err(io)?;
         if let Some((_, packing)) = FOREIGN_PACKING.iter().find(|(magic, _)| head.starts_with(magic)) {
@@ -177,7 +177,7 @@ impl Input {
                 "the gzipped file ends early: it is truncated; copy it again".to_string()
             }
             _ if self.compressed => format!("the gzipped file is damaged ({cause}); copy it again"),
-            _ => return Error::Io { path: self.path.clone(), why: cause.to_string() },
+            _ => return Error::io(&self.path, cause),
         };
         Error::Field { path: self.path.clone(), line: 0, why }
     }

@@ -17,6 +17,7 @@ mod summary;
 mod surface;
 
 pub use source::{Block, ElementCount, Format, Source, Step};
+pub(crate) use summary::shortage;
 pub use summary::{FieldSummary, LargestDisplacement};
 pub use surface::NO_NODE;
 
@@ -108,7 +109,10 @@ fn read_parts(input: &mut Input, step: Option<usize>) -> Result<Parts> {
         return Err(input.error("the text is in UTF-16; save it as UTF-8"));
     }
     if first.starts_with(b"*") {
-        return Err(input.error("a deck has no results: give the results, and the deck as their mesh"));
+        let why = "a deck (.inp) has a mesh but no displacements: give the results of its run (.frd) here, and the \
+                   deck as their mesh"
+            .into();
+        return Err(Error::Field { path: name, line: 0, why });
     }
     input.put_back();
     if frd::begins_with(&first) {

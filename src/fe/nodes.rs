@@ -90,9 +90,9 @@ impl<'a> NodeIndex<'a> {
     }
 }
 
-/// How many nodes these are, for messages.
-pub(super) fn count(ids: &[i64]) -> String {
-    if ids.len() == 1 { "1 node".into() } else { format!("{} nodes", ids.len()) }
+/// Which nodes these are, for messages: `node 7`, or `3 nodes (3, 50, 300)`.
+pub(super) fn named(ids: &[i64]) -> String {
+    if let [id] = ids { format!("node {id}") } else { format!("{} nodes ({})", ids.len(), first_few(ids)) }
 }
 
 /// The first few numbers of a list, for messages.

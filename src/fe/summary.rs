@@ -1,6 +1,7 @@
 //! What is in a field, in engineering terms.
 
 use super::{Block, ElementCount, Field, Format, Step};
+use crate::error::counted;
 use glam::DVec3;
 use serde::Serialize;
 
@@ -11,6 +12,34 @@ const SMALL: f64 = 1e-5;
 /// A model whose diagonal is below this is taken to be in metres: no part that is worth a
 /// finite-element run is so small in millimetres, and few are so large in metres.
 const LARGEST_IN_METRES: f64 = 2.0;
+
+/// Nodes that a morph needs at least: fewer do not even fix an affine motion.
+const FEWEST: usize = 4;
+
+/// Nodes within this fraction of their extent from a line lie in it.
+const IN_LINE: f64 = 1e-4;
+
+/// Why nodes with displacements at `points` are too few for a morph; none where they are enough.
+pub(crate) fn shortage(points: impl Iterator<Item = DVec3>) -> Option<String> {
+    let points: Vec<DVec3> = points.collect();
+    let needed = format!("a morph needs at least {FEWEST} that do not lie in one line");
+    if points.is_empty() {
+        return Some("no node has a displacement".into());
+    }
+    if points.len() < FEWEST {
+        return Some(format!("only {} with a displacement: {needed}", counted(points.len(), "node")));
+    }
+    let from_first = |p: &&DVec3| p.distance_squared(points[0]);
+    let axis = points.iter().max_by(|a, b| from_first(a).total_cmp(&from_first(b)))? - points[0];
+    let (length, axis) = (axis.length(), axis.normalize_or_zero());
+    let beside = |p: &DVec3| (*p - points[0]).reject_from_normalized(axis).length() > IN_LINE * length;
+    let lie = format!("the {} nodes with a displacement lie in one line: {needed}", points.len());
+    (length == 0.0 || !points.iter().any(beside)).then_some(lie)
+}
+
+fn unit_guess(size: f64) -> Option<&'static str> {
+    (size > 0.0).then_some(if size < LARGEST_IN_METRES { "m" } else { "mm" })
+}
 
 /// The largest displacement and where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -50,8 +79,8 @@ pub struct FieldSummary {
     pub elements: Vec<ElementCount>,
     /// Smallest and largest coordinates.
     pub bounds: [[f64; 3]; 2],
-    /// Unit that the size of the model suggests: `mm` or `m`.
-    pub unit_guess: &'static str,
+    /// Unit that the size of the model suggests: `mm` or `m`; none where all nodes are in one place.
+    pub unit_guess: Option<&'static str>,
     /// The largest displacement.
     pub largest_displacement: LargestDisplacement,
     /// What the user should know.
@@ -64,6 +93,8 @@ impl Field {
         let [low, high] = self.bounds();
         let mut warnings = self.warnings.clone();
         warnings.extend(self.magnitude_warnings(1.0));
+        let with_result = self.points.iter().zip(&self.displacements).filter(|(_, u)| !u.is_nan());
+        warnings.extend(shortage(with_result.map(|(p, _)| *p)));
         FieldSummary {
             name: self.name.clone(),
             format: self.source.format,
@@ -77,7 +108,7 @@ impl Field {
             surface_nodes: self.surface_nodes.as_ref().map(Vec::len),
             elements: self.source.elements.clone(),
             bounds: [low.into(), high.into()],
-            unit_guess: if low.distance(high) < LARGEST_IN_METRES { "m" } else { "mm" },
+            unit_guess: unit_guess(low.distance(high)),
             largest_displacement: self.largest_displacement(),
             warnings,
         }
@@ -114,7 +145,7 @@ impl Field {
                 "the displacements are very small, at most {moved:.3e} on a model of size {size:.3e}: \
                  perhaps they are in another unit than the coordinates"
             )
-        } else if moved > size {
+        } else if moved > size && size > 0.0 {
             format!(
                 "the displacements are larger than the model: up to {moved:.3e} at node {} on a size of {size:.3e}; \
                  the morphed solid would be folded",

@@ -2,7 +2,7 @@
 //! uniform expansion and shear are then exact to rounding, unmeshed regions included.
 
 use glam::{DMat3, DVec3};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A displacement `x ↦ linear · (x − centre) + shift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,17 +28,11 @@ impl AffineField {
         let n = points.len().max(1) as f64;
         let centre = points.iter().sum::<DVec3>() / n;
         let shift = displacements.iter().sum::<DVec3>() / n;
-        let (mut moments, mut products) = (Matrix3::<f64>::zeros(), Matrix3::<f64>::zeros());
+        let mut products = Matrix3::<f64>::zeros();
         for (x, d) in points.iter().zip(displacements) {
-            let (r, d) = ((*x - centre).to_array(), (*d - shift).to_array());
-            for i in 0..3 {
-                for j in 0..3 {
-                    moments[(i, j)] += r[i] * r[j];
-                    products[(i, j)] += d[i] * r[j];
-                }
-            }
+            products += vector(*d - shift) * vector(*x - centre).transpose();
         }
-        let eigen = moments.symmetric_eigen();
+        let eigen = moments(points, centre).symmetric_eigen();
         let largest = eigen.eigenvalues.max();
         let inverse =
             eigen.eigenvalues.map(|e| if e > FLAT * FLAT * largest && e > 0.0 { 1.0 / e } else { 0.0 });
@@ -55,6 +49,22 @@ impl AffineField {
     pub fn at(&self, x: DVec3) -> DVec3 {
         self.linear * (x - self.centre) + self.shift
     }
+}
+
+/// Whether points determine an affine motion everywhere: they do not lie in a plane.
+pub fn spans_space(points: &[DVec3]) -> bool {
+    let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    let spreads = moments(points, centre).symmetric_eigenvalues();
+    spreads.min() > FLAT * FLAT * spreads.max()
+}
+
+fn vector(v: DVec3) -> Vector3<f64> {
+    Vector3::from(v.to_array())
+}
+
+/// Second moments of points about `centre`.
+fn moments(points: &[DVec3], centre: DVec3) -> Matrix3<f64> {
+    points.iter().map(|x| vector(*x - centre)).map(|r| r * r.transpose()).sum()
 }
 
 #[cfg(test)]
@@ -88,6 +98,7 @@ mod tests {
         let d: Vec<DVec3> = x.iter().map(|p| DVec3::new(0.01 * p.x, 0.0, 0.0)).collect();
         let fitted = AffineField::fit(&x, &d);
         assert!((fitted.linear * DVec3::Z).length() < 1e-12);
+        assert!(!spans_space(&x) && !spans_space(&[]) && spans_space(&cloud()));
         assert!((fitted.at(x[5]) - d[5]).length() < 1e-12);
         assert_eq!(AffineField::fit(&[], &[]).at(DVec3::ONE), DVec3::ZERO);
     }

@@ -6,6 +6,7 @@ use super::options::Options;
 use super::progress::Progress;
 use super::report::Spread;
 use super::run::{Task, place};
+use super::warnings::Warnings;
 use crate::brep::Brep;
 use crate::error::Result;
 use crate::fe::Field;
@@ -37,7 +38,7 @@ pub struct Placement {
 /// # Errors
 /// Those that a morph would end with so far.
 pub fn check(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Placement> {
-    let mut warnings = field.warnings.clone();
+    let mut warnings = Warnings::of_field(&field.warnings);
     let (selected, fixed) = place(brep, field, options, &mut warnings, progress)?;
     let matches = Task::new(&selected, fixed, options, &mut warnings)?.matches;
     let nodes: BTreeSet<u32> = matches.iter().map(|m| m.node).collect();
@@ -52,6 +53,6 @@ pub fn check(brep: &Brep, field: &Field, options: &Options, progress: Progress<'
             .filter(|f| !faces.contains(&(*f as u32)))
             .map(|f| f + 1)
             .collect(),
-        warnings,
+        warnings: warnings.into_texts(),
     })
 }

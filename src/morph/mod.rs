@@ -33,6 +33,7 @@ mod summary;
 pub mod surface_fit;
 pub mod system;
 pub mod trim;
+mod warnings;
 
 pub use check::check;
 pub use options::Options;

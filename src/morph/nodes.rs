@@ -1,12 +1,14 @@
 //! The field on the solid's scale: units, what is missing, and whether both belong together.
 
 use super::options::Options;
+use super::warnings::{Severity, Warnings};
 use crate::error::{Error, Result};
-use crate::fe::Field;
+use crate::fe::{self, Field};
 use glam::DVec3;
 
 /// Units that a field may be in: name and length in mm.
-const UNITS: [(&str, f64); 5] = [("m", 1000.0), ("in", 25.4), ("cm", 10.0), ("ft", 304.8), ("um", 1e-3)];
+const UNITS: [(&str, f64); 6] =
+    [("mm", 1.0), ("m", 1000.0), ("in", 25.4), ("cm", 10.0), ("ft", 304.8), ("um", 1e-3)];
 /// Sizes that agree to this are of one unit.
 const SAME_SIZE: f64 = 0.05;
 /// A displacement beyond this fraction of the part's size is an error, or worth a warning.
@@ -42,15 +44,9 @@ impl Nodes {
     ///
     /// # Errors
     /// [`Error::Mismatch`] for a field in another unit, or displacements beyond the part's size;
-    /// [`Error::Field`] for a field without any result.
-    pub fn new(field: &Field, options: &Options, size_mm: f64, warnings: &mut Vec<String>) -> Result<Self> {
-        let unit = match options.field_unit_mm {
-            Some(unit) => unit,
-            None => {
-                check_unit(field, size_mm)?;
-                1.0
-            }
-        };
+    /// [`Error::Field`] for too few nodes with a displacement.
+    pub fn new(field: &Field, options: &Options, size_mm: f64, warnings: &mut Warnings) -> Result<Self> {
+        let unit = options.field_unit_mm.unwrap_or(1.0);
         let scale = options.factor * unit * options.displacement_scale;
         let points: Vec<DVec3> = field.points.iter().map(|p| *p * unit).collect();
         let displacements: Vec<DVec3> = field.displacements.iter().map(|u| *u * scale).collect();
@@ -60,13 +56,10 @@ impl Nodes {
             Some(surface) => surface.iter().copied().filter(|&n| has_result(n)).collect(),
             None => all.filter(|&n| has_result(n)).collect(),
         };
-        if usable.is_empty() {
-            return Err(Error::Field {
-                path: field.name.clone(),
-                line: 0,
-                why: "no node has a displacement".into(),
-            });
+        if let Some(why) = fe::shortage(usable.iter().map(|&n| points[n as usize])) {
+            return Err(Error::Field { path: field.name.clone(), line: 0, why });
         }
+        check_unit(field, options.field_unit_mm, size_mm)?;
         let largest_mm = usable.iter().map(|&n| displacements[n as usize].length()).fold(0.0, f64::max);
         check_size(largest_mm, size_mm, options, warnings)?;
         let coordinate = points.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
@@ -81,29 +74,31 @@ fn default_tolerance(coordinate: f64) -> f64 {
     (2.0 * digits * 1e-6).max(2e-3)
 }
 
-fn check_unit(field: &Field, size_mm: f64) -> Result<()> {
+/// Refuses a field whose size shows another unit than the one that was stated, or millimetres.
+fn check_unit(field: &Field, stated: Option<f64>, size_mm: f64) -> Result<()> {
     let size = diagonal(field.points.iter().copied());
-    if size <= 0.0 || (size_mm / size - 1.0).abs() < 0.5 {
+    let ratio = size_mm / size;
+    if size <= 0.0 || (ratio / stated.unwrap_or(1.0) - 1.0).abs() < 0.5 {
         return Ok(());
     }
-    let ratio = size_mm / size;
     let Some((name, unit)) = UNITS.iter().find(|(_, mm)| (ratio / mm - 1.0).abs() < SAME_SIZE) else {
         return Ok(());
     };
     let flag = match *name {
-        "m" | "in" => format!("--field-unit {name}"),
+        "mm" | "m" | "in" => format!("--field-unit {name}"),
         _ => format!("coordinates in mm ({unit} times as large)"),
     };
+    let instead = if stated.is_some() { " instead of the unit that was stated" } else { "" };
     Err(Error::Mismatch {
         why: format!(
             "{}: the mesh measures {size:.6} and the part {size_mm:.6} mm, a ratio of {ratio:.1}: the field seems to be in \
-             {name}; give {flag}",
+             {name}; give {flag}{instead}",
             field.name
         ),
     })
 }
 
-fn check_size(largest: f64, size: f64, options: &Options, warnings: &mut Vec<String>) -> Result<()> {
+fn check_size(largest: f64, size: f64, options: &Options, warnings: &mut Warnings) -> Result<()> {
     let ratio = largest / size;
     if ratio > TOO_LARGE[0] {
         return Err(Error::Mismatch {
@@ -114,18 +109,20 @@ fn check_size(largest: f64, size: f64, options: &Options, warnings: &mut Vec<Str
         });
     }
     if ratio > TOO_LARGE[1] {
-        warnings.push(format!(
+        let text = format!(
             "the largest displacement, {largest:.4} mm, is {:.0} % of the part's size ({size:.1} mm): check unit and factor",
             100.0 * ratio
-        ));
+        );
+        warnings.push(Severity::Doubtful, text);
     }
     if largest == 0.0 && options.factor != 0.0 {
-        warnings.push("all displacements are zero: the result equals the input".into());
+        warnings.push(Severity::Doubtful, "all displacements are zero: the result equals the input");
     } else if ratio < TOO_SMALL {
-        warnings.push(format!(
+        let text = format!(
             "the largest displacement, {largest:.3e} mm, is only {ratio:.1e} of the part's size ({size:.1} mm): if the \
              displacements are in metres, give --displacement-scale 1000"
-        ));
+        );
+        warnings.push(Severity::Doubtful, text);
     }
     Ok(())
 }

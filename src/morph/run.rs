@@ -1,7 +1,7 @@
 //! The course of a morph.
 
 use super::Morphed;
-use super::affine::AffineField;
+use super::affine::{self, AffineField};
 use super::associate::Match;
 use super::coverage::{self, Uncovered};
 use super::data;
@@ -17,8 +17,9 @@ use super::represent::reknot;
 use super::select::{Selected, select};
 use super::space::displaced;
 use super::summary::{self, Outcome};
+use super::warnings::{Severity, Warnings};
 use crate::brep::{Brep, Surface};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
 use glam::DVec3;
@@ -44,7 +45,7 @@ const HELD: f64 = 1e-6;
 pub fn morph(brep: &Brep, field: &Field, options: &Options, progress: Progress<'_>) -> Result<Morphed> {
     let start = Instant::now();
     let mut seconds = Seconds::default();
-    let mut warnings = field.warnings.clone();
+    let mut warnings = Warnings::of_field(&field.warnings);
     let (selected, fixed) = place(brep, field, options, &mut warnings, progress)?;
     seconds.associate = start.elapsed().as_secs_f64();
 
@@ -79,7 +80,7 @@ pub fn place(
     brep: &Brep,
     field: &Field,
     options: &Options,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
     progress: Progress<'_>,
 ) -> Result<(Selected, Vec<bool>)> {
     options.check()?;
@@ -127,7 +128,7 @@ impl<'a> Task<'a> {
         selected: &'a Selected,
         fixed: Vec<bool>,
         options: &Options,
-        warnings: &mut Vec<String>,
+        warnings: &mut Warnings,
     ) -> Result<Self> {
         let hot = &selected.hot;
         let matches = &selected.association.matches[..];
@@ -140,7 +141,7 @@ impl<'a> Task<'a> {
         let spacings = data::spacings(hot, matches);
         let bare = coverage::uncovered(hot, matches, &spacings);
         let bare: Vec<Uncovered> = bare.into_iter().filter(|b| !fixed[b.face]).collect();
-        check_coverage(&bare, left, options, warnings)?;
+        check_coverage(&bare, left, affine::spans_space(&points), options, warnings)?;
         let hot_angles_deg = measure::hot_angles_deg(hot, &selected.brep);
         let affine_suffices = left <= AFFINE_MM && !fixed.contains(&true);
         let local = if affine_suffices {
@@ -371,11 +372,14 @@ fn kinks(hot: &Hot, held: &[bool]) -> Vec<[Vec<f64>; 2]> {
     out
 }
 
+/// Refuses areas without nodes, unless an affine motion leaves `left` mm at nodes that `fix` it, or
+/// the user asked to extrapolate.
 fn check_coverage(
     bare: &[Uncovered],
     left: f64,
+    fix: bool,
     options: &Options,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) -> Result<()> {
     if bare.is_empty() {
         return Ok(());
@@ -388,17 +392,18 @@ fn check_coverage(
         .collect();
     let area: f64 = bare.iter().map(|b| b.area_mm2).sum();
     let what = format!(
-        "{} faces have areas without nodes, {area:.2} mm² in all: {}{}",
-        bare.len(),
+        "areas without nodes on {}, {area:.2} mm² in all: {}{}",
+        counted(bare.len(), "face"),
         list.join(", "),
         if bare.len() > list.len() { ", …" } else { "" }
     );
-    if left < options.tolerance_mm {
-        warnings.push(format!("{what}; the field is affine to {left:.1e} mm and is extended as such"));
+    if left < options.tolerance_mm && fix {
+        let text = format!("{what}; the field is affine to {left:.1e} mm and is extended as such");
+        warnings.push(Severity::Known, text);
         return Ok(());
     }
     if options.extrapolate {
-        warnings.push(format!("{what}; the field is extrapolated there"));
+        warnings.push(Severity::Doubtful, format!("{what}; the field is extrapolated there"));
         return Ok(());
     }
     Err(Error::Mismatch { why: format!("{what}; give --extrapolate to extend the field over them") })

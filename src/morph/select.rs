@@ -4,14 +4,15 @@ use super::associate::{Association, associate, typical_distance};
 use super::hot::Hot;
 use super::nodes::Nodes;
 use super::options::Options;
+use super::warnings::{Severity, Warnings};
 use crate::brep::{Brep, Topology};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, counted};
 use crate::fe::Field;
 use glam::DVec3;
 
 /// Fraction of the surface nodes that must lie on the part.
 const ENOUGH: f64 = 0.5;
-/// Nodes that a part needs at least: fewer do not even fix an affine motion.
+/// Nodes on a part at least, where no elements say which lie on the surface.
 const FEWEST: usize = 4;
 
 /// The solid to morph with the nodes on it.
@@ -33,7 +34,7 @@ pub struct Selected {
 /// # Errors
 /// [`Error::Solid`] without a solid or with several to choose from; [`Error::Mismatch`] where the
 /// field does not lie on it.
-pub fn select(brep: &Brep, field: &Field, options: &Options, warnings: &mut Vec<String>) -> Result<Selected> {
+pub fn select(brep: &Brep, field: &Field, options: &Options, warnings: &mut Warnings) -> Result<Selected> {
     let mut brep = brep.clone();
     brep.normalise()?;
     let count = Topology::new(&brep)?.solids.len();
@@ -54,7 +55,7 @@ pub fn select(brep: &Brep, field: &Field, options: &Options, warnings: &mut Vec<
         if options.solid.is_some_and(|wanted| wanted != n) {
             continue;
         }
-        let mut said = Vec::new();
+        let mut said = Warnings::default();
         let attempt = attempt(brep.solid(n)?, field, options, &mut said);
         match attempt {
             Ok(selected) => fitting.push((n, selected, said)),
@@ -65,14 +66,16 @@ pub fn select(brep: &Brep, field: &Field, options: &Options, warnings: &mut Vec<
 }
 
 fn choose(
-    mut fitting: Vec<(usize, Selected, Vec<String>)>,
+    mut fitting: Vec<(usize, Selected, Warnings)>,
     failures: Vec<(usize, Error)>,
     count: usize,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) -> Result<Selected> {
     if fitting.len() > 1 {
-        let list: Vec<String> =
-            fitting.iter().map(|(n, s, _)| format!("solid {n} ({} faces)", s.hot.faces.len())).collect();
+        let list: Vec<String> = fitting
+            .iter()
+            .map(|(n, s, _)| format!("solid {n} ({})", counted(s.hot.faces.len(), "face")))
+            .collect();
         return Err(Error::Solid {
             why: format!("the field covers several solids: {}; choose one with --solid N", list.join(", ")),
         });
@@ -88,9 +91,10 @@ fn choose(
         } else {
             format!("no nodes on solid {}", left.join(", "))
         };
-        warnings.push(format!("the part has {count} solids; only solid {n} is morphed and written ({why})"));
+        let text = format!("the part has {count} solids; only solid {n} is morphed and written ({why})");
+        warnings.push(Severity::Known, text);
     }
-    warnings.extend(said);
+    warnings.append(said);
     Ok(selected)
 }
 
@@ -98,7 +102,7 @@ fn name(options: &Options) -> &str {
     if options.solid_name.is_empty() { "the part" } else { &options.solid_name }
 }
 
-fn attempt(brep: Brep, field: &Field, options: &Options, warnings: &mut Vec<String>) -> Result<Selected> {
+fn attempt(brep: Brep, field: &Field, options: &Options, warnings: &mut Warnings) -> Result<Selected> {
     let hot = Hot::new(&brep)?;
     let nodes = Nodes::new(field, options, size_mm(&hot), warnings)?;
     let clock = std::time::Instant::now();
@@ -127,7 +131,7 @@ fn check(
     nodes: &Nodes,
     association: &Association,
     options: &Options,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) -> Result<()> {
     let usable = nodes.usable.len();
     let lost = association.unmatched.len();
@@ -147,18 +151,20 @@ fn check(
         });
     }
     if field.surface_nodes.is_none() {
-        warnings.push(format!(
+        let text = format!(
             "the field has no elements: {on} of {usable} nodes lie on the faces, the others are taken as inside"
-        ));
+        );
+        warnings.push(Severity::Known, text);
     } else if lost > 0 {
         let ids: Vec<String> =
             association.unmatched.iter().take(10).map(|&n| nodes.ids[n as usize].to_string()).collect();
-        warnings.push(format!(
+        let text = format!(
             "{lost} of {usable} surface nodes lie on no face within {:.3e} mm and are not used (ids {}{})",
             nodes.match_tolerance_mm,
             ids.join(", "),
             if lost > ids.len() { ", …" } else { "" }
-        ));
+        );
+        warnings.push(Severity::Doubtful, text);
     }
     Ok(())
 }

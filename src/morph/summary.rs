@@ -9,9 +9,10 @@ use super::report::{Change, EdgeReport, FaceReport, Input, Report, Seconds, Soli
 use super::run::Task;
 use super::select::Selected;
 use super::surface_fit::Cells;
+use super::warnings::{Severity, Warnings};
 use super::{NodeResult, data::PatchData};
 use crate::brep::Brep;
-use crate::error::Result;
+use crate::error::{Result, counted};
 use crate::fe::Field;
 use crate::nurbs::NurbsSurface;
 
@@ -52,7 +53,7 @@ pub fn summarise(
     field: &Field,
     options: &Options,
     holdout: Option<&[f64]>,
-    mut warnings: Vec<String>,
+    mut warnings: Warnings,
 ) -> Result<(Report, Vec<NodeResult>)> {
     let Selected { brep, hot, nodes, association, .. } = outcome.selected;
     let matches = &association.matches[..];
@@ -71,7 +72,7 @@ pub fn summarise(
     let folded = figures.iter().filter(|f| f.folded).count() + measure::folded_samples(hot, outcome.cold);
     warn(outcome, options, &figures, folded, &mut warnings);
     warn_of_joints(&edges, options.tolerance_mm, &mut warnings);
-    warnings.extend(empty_spans(&faces));
+    empty_spans(&faces).into_iter().for_each(|text| warnings.push(Severity::Known, text));
     let results = matches.iter().zip(&figures).map(|(m, f)| NodeResult {
         id: nodes.ids[m.node as usize],
         face: m.face + 1,
@@ -94,7 +95,7 @@ pub fn summarise(
         solid: solid(outcome, &before, &after, folded),
         faces,
         edges,
-        warnings,
+        warnings: warnings.into_texts(),
         seconds: Seconds::default(),
     };
     Ok((report, results.collect()))
@@ -198,18 +199,20 @@ fn warn(
     options: &Options,
     figures: &[NodeFigures],
     folded: usize,
-    warnings: &mut Vec<String>,
+    warnings: &mut Warnings,
 ) {
     if folded > 0 {
-        warnings
-            .push(format!("the result is folded: {folded} sampled normals are turned against the input's"));
+        let normals = counted(folded, "sampled normal");
+        let text = format!("the result is folded and not to be used: {normals} turned against the input's");
+        warnings.push(Severity::Broken, text);
     }
     if options.factor < 0.0 {
         let second = figures.iter().map(|f| f.second_order).fold(0.0, f64::max);
-        warnings.push(format!(
+        let text = format!(
             "the displacement was computed on the given shape and taken away from it: the result is a first-order estimate of \
              the unloaded shape; the second-order term |∇u|·|u| reaches about {second:.1e} mm"
-        ));
+        );
+        warnings.push(Severity::Known, text);
     }
     let faces = &outcome.selected.hot.faces;
     let held: Vec<String> = (0..faces.len())
@@ -217,15 +220,14 @@ fn warn(
         .map(|f| face_name(options, f))
         .collect();
     if !held.is_empty() {
-        warnings.push(format!(
-            "the field holds {} still: they stay where they are, and the gradient jumps at their edges",
-            held.join(", ")
-        ));
+        let text =
+            format!("the field holds {} still; its gradient jumps at the edges there", held.join(", "));
+        warnings.push(Severity::Known, text);
     }
 }
 
 /// Names joints that open or gape.
-fn warn_of_joints(edges: &[EdgeReport], tolerance_mm: f64, warnings: &mut Vec<String>) {
+fn warn_of_joints(edges: &[EdgeReport], tolerance_mm: f64, warnings: &mut Warnings) {
     let opened = |e: &EdgeReport| e.angle_deg.after - e.angle_deg.before;
     let list = |chosen: &[&EdgeReport]| {
         let named: Vec<String> = chosen
@@ -235,18 +237,20 @@ fn warn_of_joints(edges: &[EdgeReport], tolerance_mm: f64, warnings: &mut Vec<St
             .collect();
         format!("{}{}", named.join(", "), if chosen.len() > named.len() { ", …" } else { "" })
     };
-    for (held, what) in [(true, "beside held faces"), (false, "elsewhere")] {
+    let joints = [(false, "elsewhere", Severity::Doubtful), (true, "beside held faces", Severity::Known)];
+    for (held, what, severity) in joints {
         let chosen: Vec<&EdgeReport> =
             edges.iter().filter(|e| e.tangent && e.held == held && opened(e) > OPENED_DEG).collect();
         if !chosen.is_empty() {
             let most = chosen.iter().map(|e| opened(e)).fold(0.0, f64::max);
-            warnings.push(format!("tangent joints open by up to {most:.2}° {what}: edges {}", list(&chosen)));
+            let text = format!("tangent joints open by up to {most:.2}° {what}: edges {}", list(&chosen));
+            warnings.push(severity, text);
         }
     }
     let gaping: Vec<&EdgeReport> =
         edges.iter().filter(|e| e.gap_mm.after > tolerance_mm.max(2.0 * e.gap_mm.before)).collect();
     if !gaping.is_empty() {
         let most = gaping.iter().map(|e| e.gap_mm.after).fold(0.0, f64::max);
-        warnings.push(format!("edges gape by up to {most:.1e} mm: {}", list(&gaping)));
+        warnings.push(Severity::Doubtful, format!("edges gape by up to {most:.1e} mm: {}", list(&gaping)));
     }
 }

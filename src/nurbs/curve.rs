@@ -28,6 +28,12 @@ pub trait Point:
     fn dot(self, other: Self) -> f64;
     /// Whether every coordinate is finite.
     fn is_finite(self) -> bool;
+    /// The smaller of each coordinate.
+    fn min(self, other: Self) -> Self;
+    /// The larger of each coordinate.
+    fn max(self, other: Self) -> Self;
+    /// The largest coordinate.
+    fn max_element(self) -> f64;
     /// Euclidean length.
     fn length(self) -> f64 {
         self.dot(self).sqrt()
@@ -48,6 +54,15 @@ impl Point for DVec2 {
     fn is_finite(self) -> bool {
         DVec2::is_finite(self)
     }
+    fn min(self, other: Self) -> Self {
+        DVec2::min(self, other)
+    }
+    fn max(self, other: Self) -> Self {
+        DVec2::max(self, other)
+    }
+    fn max_element(self) -> f64 {
+        DVec2::max_element(self)
+    }
 }
 
 impl Point for DVec3 {
@@ -63,6 +78,15 @@ impl Point for DVec3 {
     }
     fn is_finite(self) -> bool {
         DVec3::is_finite(self)
+    }
+    fn min(self, other: Self) -> Self {
+        DVec3::min(self, other)
+    }
+    fn max(self, other: Self) -> Self {
+        DVec3::max(self, other)
+    }
+    fn max_element(self) -> f64 {
+        DVec3::max_element(self)
     }
 }
 

@@ -124,7 +124,7 @@ fn decks_that_cannot_be_used_say_why() {
         ("frame.inp", "*SYSTEM\n0,0,0\n*NODE\n1,1,2,3\n", &["line 1", "*SYSTEM"]),
         ("word.inp", "*NODE\n1,0,0,0\n2,zero,0,0\n", &["line 3", "a node", "2,zero"]),
         ("nan.inp", "*NODE\n1,nan,0,0\n", &["line 2", "a node"]),
-        ("short.inp", "*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D4\n1,1,1,1\n*STEP\n", &["line 5", "lacks 1 nodes"]),
+        ("short.inp", "*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D4\n1,1,1,1\n*STEP\n", &["line 5", "lacks 1 node"]),
         ("long.inp", "*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D4\n1,1,1,1,1,1\n", &["line 4", "C3D4", "4 nodes"]),
         ("cut.inp", "*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D4\n1,1,1,\n", &["truncated", "lacks 2 nodes"]),
         ("typeless.inp", "*NODE\n1,0,0,0\n*ELEMENT\n1,1,1,1,1\n", &["line 3", "TYPE"]),

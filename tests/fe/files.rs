@@ -30,7 +30,7 @@ fn tiny_and_foreign_files_are_refused() {
         ("mesh.stl", b"solid part made by hand\nfacet normal 0 0 1\n", "found solid, part"),
         ("model.step", b"ISO-10303-21;\nHEADER;\n", "neither"),
         ("data.vtu", b"<?xml version=\"1.0\"?>\n<VTKFile>\n", "neither"),
-        ("deck.inp", b"*HEADING\n*NODE\n1,0,0,0\n", "a deck has no results"),
+        ("deck.inp", b"*HEADING\n*NODE\n1,0,0,0\n", "a deck (.inp) has a mesh but no displacements"),
         ("wide.csv", b"\xff\xfei\0d\0,\0", "UTF-16"),
     ] {
         assert_says(&refused(name, content), &[word]);

@@ -148,7 +148,7 @@ fn values_that_are_no_numbers_are_refused_with_their_nodes() {
     let message = refused("nan.frd", variant("nan"));
     assert_says(&message, &["6 nodes", "NaN", "7, 418, 829, 1240, 1651, 2062"]);
     let place = original("base.frd").replacen("-1.00000E+01-4.00000E+00", "    Infinity-4.00000E+00", 1);
-    assert_says(&refused("infinite.frd", place), &["1 node", "coordinates", ": 1"]);
+    assert_says(&refused("infinite.frd", place), &["node 1 with coordinates"]);
 }
 
 #[test]
@@ -217,10 +217,13 @@ fn suspicious_sizes_are_said() {
 #[test]
 fn metres_and_other_frames_are_read_as_they_are() {
     let (base, metres) = (base(), read_text("metres.frd", variant("metres")));
-    assert_eq!((base.summary().unit_guess, metres.summary().unit_guess), ("mm", "m"));
+    assert_eq!((base.summary().unit_guess, metres.summary().unit_guess), (Some("mm"), Some("m")));
     for (a, b) in base.points.iter().zip(&metres.points) {
         assert!((*a - *b * 1e3).abs().max_element() <= 1e-12 * a.length().max(1.0), "{a} {b}");
     }
+    let place = read_text("place.csv", "1,5,5,5,0.1,0,0\n").summary();
+    assert_eq!((place.unit_guess, place.warnings.len()), (None, 1), "{:?}", place.warnings);
+    assert!(place.warnings[0].starts_with("only 1 node with"), "{:?}", place.warnings);
     let mirrored = read_text("mirrored.frd", variant("mirrored"));
     assert_eq!(mirrored.points[3], DVec3::new(10.7536, -0.600951, 40.0));
     let turned = read_text("other_frame.frd", variant("other_frame"));

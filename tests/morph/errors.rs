@@ -82,6 +82,48 @@ fn another_unit_is_named_and_then_used() {
 }
 
 #[test]
+fn a_unit_that_was_stated_wrongly_is_named() {
+    let (brep, field) = good();
+    for (stated, scale) in [(1000.0, 1.0), (25.4, 1.0), (25.4, 1e-3)] {
+        let options = Options { field_unit_mm: Some(stated), ..Options::default() };
+        let error = refusal(&brep, &scaled(&mapped(&field, |p| p * scale), scale), &options);
+        assert_eq!(error.code(), 160, "{error}");
+        let right = if scale == 1.0 { "--field-unit mm instead" } else { "--field-unit m instead" };
+        assert_says(&error.to_string(), &["sampled.csv", right]);
+    }
+}
+
+#[test]
+fn too_few_nodes_are_refused_for_what_they_are() {
+    let (brep, whole) = good();
+    let points = |count: usize| whole.points.iter().copied().take(count).collect::<Vec<_>>();
+    let line = |step: DVec3| (0..30).map(|k| whole.points[0] + step * k as f64).collect::<Vec<_>>();
+    let cases = [
+        (points(1), "only 1 node with a displacement"),
+        (points(3), "only 3 nodes with a displacement"),
+        (line(DVec3::new(0.01, 0.02, 0.1)), "30 nodes with a displacement lie in one line"),
+        (line(DVec3::ZERO), "lie in one line"),
+    ];
+    for (points, what) in cases {
+        let error = refusal(&brep, &field(points, |x| bend(x, 0.004)), &Options::default());
+        assert_eq!(error.code(), 150, "{error}");
+        assert_says(&error.to_string(), &["sampled.csv", what, "at least 4 that do not lie in one line"]);
+    }
+}
+
+/// Nodes in a plane say nothing of what lies beside it, however well an affine motion meets them.
+#[test]
+fn nodes_in_a_plane_do_not_move_the_rest_unasked() {
+    let brep = solid("bar");
+    let all = nodes(&brep, 1.0, |_| true);
+    let lowest = all.iter().map(|p| p.z).fold(f64::MAX, f64::min);
+    let plane = all.into_iter().filter(|p| p.z < lowest + 1e-9).collect();
+    let field = field(plane, |x| Affine::turned_and_sheared().at(x));
+    let error = refusal(&brep, &field, &Options::default());
+    assert_says(&error.to_string(), &["without nodes on", "--extrapolate"]);
+}
+
+#[test]
 fn odd_sizes_of_displacement_are_told() {
     let (brep, field) = good();
     let error = refusal(&brep, &scaled(&field, 1e3), &Options::default());

@@ -6,6 +6,7 @@ import gzip
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -95,6 +96,17 @@ def user_home(folder: Path, language: str = "English") -> None:
     (folder / "Mod").mkdir()
     (folder / "Mod" / "Bladesmith").symlink_to(ROOT)
     (folder / "user.cfg").write_text(_USER_CONFIGURATION.format(language=language))
+
+
+def page(name: str) -> str:
+    """The source of a page of the documentation."""
+    return (ROOT / "docs" / f"{name}.md").read_text()
+
+
+def code(text: str, language: str = "") -> list[str]:
+    """The code of a page in one language; that of terminals has none."""
+    found = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S)
+    return [lines for name, lines in found if name == language]
 
 
 def packed(name: str) -> Path:

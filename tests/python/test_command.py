@@ -1,5 +1,9 @@
 """The command line: exit codes, messages, and that nothing half-written is ever left."""
 
+import argparse
+import contextlib
+import copy
+import io
 import json
 import os
 import pty
@@ -14,6 +18,8 @@ from pathlib import Path
 
 import common
 from common import bladesmith, packed
+from freecad.bladesmith.cli.summary import print_summary
+from freecad.bladesmith.model import Report
 
 BASE = (packed("base.step"), packed("base.frd"))
 
@@ -69,8 +75,13 @@ class Usage(InFolder):
         for option, value in cases.items():
             done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", f"{option}={value}")
             self.assertEqual(done.returncode, 2, option)
-            self.assertIn(option, done.stderr)
-            self.assertNotIn("Traceback", done.stderr)
+            self.assert_refused(
+                done, f"argument {option}:", f"'{value}'", "'bladesmith morph --help'"
+            )
+
+    def test_what_is_missing_is_said_in_one_line(self):
+        self.assert_refused(bladesmith(), "COMMAND", "'bladesmith --help'")
+        self.assert_refused(bladesmith("morph", *BASE), "-o/--output", "'bladesmith morph --help'")
 
     def test_it_runs_as_a_module_and_through_links_from_any_folder(self):
         link = self.folder / "bladesmith"
@@ -100,7 +111,8 @@ class Refusals(InFolder):
         ]
         for arguments, name in cases:
             done = bladesmith("morph", *arguments, "-o", self.folder / "c.step")
-            self.assert_refused(done, name, "No such file")
+            self.assert_refused(done, f"{name}: No such file or directory; give an existing")
+            self.assertNotIn("os error", done.stderr)
 
     def test_a_folder_is_no_input(self):
         done = bladesmith("morph", common.P5, BASE[1], "-o", self.folder / "c.step")
@@ -134,11 +146,24 @@ class Refusals(InFolder):
         cases = {
             ("--faces", "Face9"): "give Face1 to Face6",
             ("--fixed", "tip"): "no face 'tip'",
-            ("--solid", "3"): "--solid takes 1 to 1",
+            ("--solid", "3"): "there is no solid 3: the part has 1; leave --solid out",
         }
         for options, words in cases.items():
             done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", *options)
             self.assert_refused(done, words)
+
+    def test_a_page_needs_a_folder(self):
+        target, file = self.folder / "c.step", self.folder / "taken"
+        done = bladesmith("morph", *BASE, "-o", target, "--report", self.folder / "pages.html")
+        self.assert_refused(done, "--report takes a folder", f"give {self.folder / 'pages'}")
+        file.write_text("")
+        done = bladesmith("morph", *BASE, "-o", target, "--report", file)
+        self.assertIn("for --report a folder is expected, and this is a file", done.stderr)
+
+    def test_a_deck_in_place_of_the_results_is_called_one(self):
+        self.assert_refused(
+            bladesmith("info", packed("base.inp")), "base.inp.gz: a deck (.inp) has"
+        )
 
     def test_faces_of_several_solids_need_the_solid_they_count_in(self):
         arguments = ["morph", packed("two_solids.step"), BASE[1], "-o", self.folder / "c.step"]
@@ -174,6 +199,40 @@ class Results(InFolder):
         self.assertIn("report.html", os.listdir(self.folder / "pages"))
         for word in ("6 faces, valid, closed", "deviation", "largest gap", "volume"):
             self.assertIn(word, done.stdout)
+        seconds = json.loads((self.folder / "r.json").read_text())["seconds"]
+        parts = sum(value for stage, value in seconds.items() if stage != "total")
+        self.assertTrue(0.9 * seconds["total"] < parts <= seconds["total"], seconds)
+
+    def test_the_way_a_factor_moves_the_part_is_said_and_a_default_is_noticed(self):
+        cases = {(): "1: displacements added (cold to hot)"}
+        cases["--factor", "1"] = cases[()]
+        cases["--factor", "-1"] = "-1: displacements taken away (hot to cold)"
+        for options, words in cases.items():
+            done = common.morph(*BASE, *options)
+            self.assertRegex(done.stdout, rf"(?m)^  factor +{re.escape(words)}$")
+            self.assertEqual("notice: without --factor" in done.stderr, not options, done.stderr)
+
+    def test_the_report_can_go_to_standard_output_alone(self):
+        done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", "--json", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["solid"]["faces"], 6)
+        self.assertEqual(self.files(), ["c.step"])
+        self.assertIn("notice: without --factor", done.stderr)
+
+    def test_a_folded_result_is_said_first(self):
+        report = Report(copy.deepcopy(common.morph(*BASE).report))
+        report.solid["folded"] = 3
+        options = argparse.Namespace(output="c.step", json=None, report=None, factor=1.0)
+        quiet = contextlib.redirect_stderr(io.StringIO())
+        with quiet, contextlib.redirect_stdout(io.StringIO()) as said:
+            print_summary(options, report)
+        self.assertTrue(said.getvalue().startswith("c.step: FOLDED, 6 faces, valid"))
+
+    def test_the_face_of_the_largest_hold_out_error_is_named(self):
+        done = common.morph(*BASE, "--holdout")
+        faces = done.report["faces"]
+        worst = max(faces, key=lambda face: face["holdout_mm"]["max"])["name"]
+        self.assertRegex(done.stdout, rf"hold-out .*\({worst}\)")
 
     def test_quiet_prints_nothing(self):
         done = bladesmith("morph", *BASE, "-o", self.folder / "c.step", "--quiet")
@@ -268,6 +327,23 @@ class Info(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         for word in ("nodes 2425", "1250 C3D10", "step 1", "step 2", "largest displacement 0.2"):
             self.assertIn(word, done.stdout)
+
+    def test_it_can_go_to_standard_output_alone_as_json(self):
+        done = bladesmith("info", packed("base.frd"), "--json", "-")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(json.loads(done.stdout)["nodes"], 2425)
+        self.assertFalse(Path("-").exists())
+
+    def test_a_field_of_one_node_is_told_to_be_too_small_and_guesses_no_unit(self):
+        field = self.folder / "one.csv"
+        field.write_text("id,x,y,z,dx,dy,dz\n7,1,2,3,0.1,0,0\n")
+        done = bladesmith("info", field)
+        self.assertIn("all nodes in one place, (1, 2, 3)", done.stdout)
+        self.assertIn("only 1 node with a displacement: a morph needs at least 4", done.stdout)
+        self.assertNotIn("by the size", done.stdout)
+        done = bladesmith("morph", BASE[0], field, "-o", self.folder / "c.step")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("one.csv: only 1 node with a displacement: a morph needs", done.stderr)
 
     def test_a_reader_that_goes_away_is_no_error_to_read(self):
         process = subprocess.Popen(

@@ -105,7 +105,9 @@ class Results(Document):
         cold = self.folder / "cold.step"
         exchange.write(obj, str(cold))
         again = step.read(str(cold))
-        self.assertEqual(again.product, "Riegel")
+        self.assertEqual(again.product, "cold")
+        exchange.write(source, str(self.folder / "copy.step"))
+        self.assertEqual(step.read(str(self.folder / "copy.step")).product, "Riegel")
         self.assertEqual(again.solids[0].name, "bar")
         self.assertEqual(again.solids[0].face_names, names)
         self.assertEqual(again.solids[0].face_colours, colours)
@@ -116,7 +118,9 @@ class Sameness(Document):
         obj = self.morph(Factor=-1.0)
         obj.Source.Shape.tessellate(0.1)
         ours = morph.computed(morph.job_of(obj)).result.brep
-        cold, from_command = self.folder / "cold.step", self.folder / "command.step"
+        cold, from_command = (self.folder / name / "cold.step" for name in ("window", "command"))
+        cold.parent.mkdir()
+        from_command.parent.mkdir()
         os.environ["SOURCE_DATE_EPOCH"] = common.EPOCH
         self.addCleanup(os.environ.pop, "SOURCE_DATE_EPOCH")
         exchange.write(obj, str(cold))
@@ -181,9 +185,13 @@ class Refusals(Document):
         obj = self.morph()
         obj.Source = self.document.addObject("Part::Feature", "Faces")
         obj.Source.Shape = common.Part.makePlane(1, 1)
-        self.assert_refused(obj, "Faces: no solid, it holds 1 faces")
+        self.assert_refused(obj, "Faces: no solid, it holds 1 face only")
         obj.Source = self.document.addObject("App::FeaturePython", "Nothing")
         self.assert_refused(obj, "Nothing: this object has no shape")
+
+    def test_a_source_without_names_shows_none(self):
+        obj = self.morph()
+        self.assertEqual((obj.FaceNames, obj.Source.FaceNames), ([], []))
 
     def test_only_one_solid_is_exported_and_only_as_step(self):
         obj = self.morph()

@@ -1,6 +1,7 @@
 """``make install`` and ``make uninstall``: the command works from its new place, and goes again."""
 
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -19,6 +20,17 @@ def make(verb: str, **variables) -> subprocess.CompletedProcess:
         capture_output=True,
         text=True,
         stdin=subprocess.DEVNULL,
+    )
+
+
+def terminal(lines: str, folder: Path, **environment) -> subprocess.CompletedProcess:
+    """Runs lines as in a terminal in ``folder``."""
+    return subprocess.run(
+        ["sh", "-e", "-c", lines],
+        cwd=folder,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
     )
 
 
@@ -56,6 +68,31 @@ class Installation(unittest.TestCase):
             removed = make("uninstall", PREFIX="/opt/blades", DESTDIR=folder)
             self.assertEqual(removed.returncode, 0, removed.stderr)
             self.assertEqual(sorted(Path(folder, "opt", "blades").rglob("*")), [])
+
+    def test_programs_are_built_by_the_lines_of_the_documentation(self):
+        with tempfile.TemporaryDirectory(prefix="bladesmith-tests-") as name:
+            folder, prefix = Path(name), Path(name, "usr")
+            made = make("install", PREFIX=prefix)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            shutil.copytree(common.ROOT / "examples" / "c", folder / "examples" / "c")
+            shutil.copytree(common.ROOT / "examples" / "cpp", folder / "examples" / "cpp")
+            shutil.copy(folder / "examples" / "c" / "morph.c", folder / "tool.c")
+            data = common.ROOT / "tests" / "consumer" / "data"
+            shutil.copy(data / "bar.brep", folder / "hot.brep")
+            shutil.copy(data / "bar.frd.gz", folder / "blade.frd.gz")
+            packages = str(prefix / "lib" / "pkgconfig")
+            built = [
+                lines for lines in common.code(common.page("c-api")) if "make" not in lines.split()
+            ]
+            self.assertEqual(len(built), 4)
+            for lines in built:
+                lines = lines.replace("/opt/bladesmith", str(prefix))
+                done = terminal(lines, folder, PKG_CONFIG_PATH=packages)
+                self.assertEqual(done.returncode, 0, f"{lines}\n{done.stderr}")
+            for program in ("tool", "morph"):
+                self.assertIn("usage: morph", terminal(f"./{program} || true", folder).stderr)
+            self.assertIn("deviation_mm", (folder / "report.json").read_text())
+            self.assertTrue(common.Part.read(str(folder / "cold.brep")).isValid())
 
 
 if __name__ == "__main__":

@@ -71,8 +71,8 @@ class Files(unittest.TestCase):
         (self.folder / "file").write_text("")
         cases = [
             (self.folder / "none" / "a.step", False, "does not exist; make it first"),
-            (self.folder, False, "needs a file here"),
-            (self.folder / "file", True, "needs a folder here"),
+            (self.folder, False, "a file is expected, and this is a folder"),
+            (self.folder / "file", True, "a folder is expected, and this is a file"),
         ]
         for target, directory, reason in cases:
             with self.assertRaisesRegex(InputError, reason):

@@ -84,9 +84,11 @@ class Words(unittest.TestCase):
     def test_a_missed_tolerance_an_open_or_an_invalid_solid_are_called_bad(self):
         self.assertEqual(words.state(report(), 1e-12), "bad")
         self.assertIn("beyond the tolerance", words.sentences(report(), 1e-12)[0])
-        for change in ({"closed": False}, {"valid": False}):
+        for change in ({"closed": False}, {"valid": False}, {"folded": 1}):
             solid = {**report().solid, **change}
             self.assertEqual(words.state(report(solid=solid), 1e-3), "bad")
+        said = words.sentences(report(solid={**report().solid, "folded": 1}), 1e-3)
+        self.assertIn("folded, not to be used: 1 sampled normal turned", said[0])
 
     def test_warnings_and_opened_joints_are_called_odd_and_named(self):
         self.assertEqual(words.state(report(warnings=["look"]), 1e-3), "odd")
@@ -110,10 +112,15 @@ class Tables(unittest.TestCase):
         self.assertTrue(text[first:].startswith('<tr class="bad"><td class=text>4</td>'))
         self.assertEqual(text.count('class="bad"'), 1)
 
+    def test_columns_of_the_hold_out_test_are_there_where_it_was_made(self):
+        self.assertNotIn("Hold-out", tables.faces_table(report(), 1e-3))
+        tested = Report(morph(packed("base.step"), packed("base.frd"), "--holdout").report)
+        self.assertIn("Hold-out mean", tables.faces_table(tested, 1e-3))
+
     def test_names_cannot_break_the_page(self):
         faces = copy.deepcopy(report().document["faces"])
         faces[0]["name"] = "<script>alert('x')</script>"
-        text = page._page(report(faces=faces, warnings=["<b>"]), [], 1e-3)
+        text = page._page(report(faces=faces, warnings=["<b>"]), [], 1e-3, 8)
         self.assertNotIn("<script>", text)
         self.assertNotIn("<b>\n", text.replace("<li><b>", ""))
         self.assertIn("&lt;b&gt;", text)

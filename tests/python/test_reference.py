@@ -7,19 +7,10 @@ import unittest
 from pathlib import Path
 
 import common
+from common import page
 from freecad.bladesmith.native import errors
 
-DOCS = common.ROOT / "docs"
 HEADER = (common.ROOT / "include" / "bladesmith" / "bladesmith.h").read_text()
-
-
-def page(name: str) -> str:
-    return (DOCS / f"{name}.md").read_text()
-
-
-def blocks(text: str, language: str) -> list[str]:
-    """The code of a page in one language."""
-    return re.findall(rf"^```{language}\n(.*?)^```", text, re.M | re.S)
 
 
 def flat(path: Path) -> str:
@@ -51,16 +42,44 @@ class Interface(unittest.TestCase):
         text = page("c-api")
         kinds = {"c": ("c", ["gcc", "-std=c99"]), "cpp": ("cpp", ["g++", "-std=c++17"])}
         for language, (suffix, compiler) in kinds.items():
-            found = blocks(text, language)
+            found = common.code(text, language)
             self.assertTrue(found, language)
-            for code in found:
+            for source in found:
                 with tempfile.NamedTemporaryFile("w", suffix=f".{suffix}") as file:
-                    file.write(code)
+                    file.write(source)
                     file.flush()
                     flags = ["-Wall", "-Wextra", "-pedantic", "-Werror", "-fsyntax-only"]
                     command = [*compiler, *flags, f"-I{common.ROOT / 'include'}", file.name]
                     done = subprocess.run(command, capture_output=True, text=True)
-                self.assertEqual(done.returncode, 0, f"{code}\n{done.stderr}")
+                self.assertEqual(done.returncode, 0, f"{source}\n{done.stderr}")
+
+
+class Links(unittest.TestCase):
+    def test_links_of_the_files_outside_the_pages_lead_somewhere(self):
+        papers = [*common.ROOT.glob("*.md"), *common.ROOT.glob("examples/*/*.md")]
+        self.assertGreater(len(papers), 3)
+        for paper in papers:
+            for link in re.findall(r"\]\(([^)#]+)", paper.read_text()):
+                there = link.startswith("https://") or (paper.parent / link).exists()
+                self.assertTrue(there, f"{paper.name}: {link}")
+
+
+class CommandLine(unittest.TestCase):
+    def options(self, *command):
+        """Long options of a command, as its help tells them."""
+        text = common.bladesmith(*command, "--help").stdout
+        return set(re.findall(r"^  (?:-\w.*, )?(--[a-z-]+)", text, re.M)) - {"--help"}
+
+    def test_every_option_of_morph_has_its_row_and_no_other_has(self):
+        rows = re.findall(r"^\| (`-.*?) \|", page("command-line"), re.M)
+        listed = {option for row in rows for option in re.findall(r"--[a-z-]+", row)}
+        self.assertEqual(listed, self.options("morph"))
+
+    def test_options_named_elsewhere_are_there(self):
+        known = self.options("morph") | self.options("info") | {"--help", "--version"}
+        for name in ("tutorial", "errors", "file-formats", "conventions", "../README"):
+            named = set(re.findall(r"`(--[a-z-]+)", page(name)))
+            self.assertEqual(named - known, set(), name)
 
 
 class Messages(unittest.TestCase):

@@ -111,7 +111,7 @@ class Names(unittest.TestCase):
             found = step.read(str(cold))
             side_file = json.loads(Path(folder, "cold.names.json").read_text())
             faces = json.loads(report.read_text())["faces"]
-        self.assertEqual(found.product, "Riegel")
+        self.assertEqual((found.product, side_file["product"]), ("cold", "cold"))
         self.assertEqual(found.solids[0].name, "bar")
         self.assertEqual(found.solids[0].face_names, names)
         self.assertEqual(found.solids[0].face_colours, colours)

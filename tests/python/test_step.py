@@ -149,10 +149,16 @@ class Files(InFolder):
             step.read(str(common.packed("faces_only.step")))
 
     def test_a_damaged_packed_file_is_refused(self):
-        path = self.folder / "cut.step.gz"
-        path.write_bytes(common.packed("base.step").read_bytes()[:2000])
-        with self.assertRaisesRegex(InputError, "cut.step.gz: "):
-            step.read(str(path))
+        whole = common.packed("base.step").read_bytes()
+        cases = {
+            "cut.step.gz": (whole[:2000], "ends early: it is truncated; copy it again"),
+            "spoiled.step.gz": (whole[:2000] + whole[2100:], "is damaged .*; copy it again"),
+        }
+        for name, (content, reason) in cases.items():
+            path = self.folder / name
+            path.write_bytes(content)
+            with self.assertRaisesRegex(InputError, f"{name}: the gzipped file {reason}"):
+                step.read(str(path))
 
 
 class Judgement(unittest.TestCase):

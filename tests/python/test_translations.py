@@ -7,6 +7,8 @@ import sys
 import unittest
 
 import common
+from freecad.bladesmith.taskpanels import core_texts
+from test_reference import flat
 
 sys.path.insert(0, str(common.ROOT / "tools"))
 
@@ -20,6 +22,27 @@ application, translator = QCoreApplication([]), QTranslator()
 assert translator.load(sys.argv[1]), "it cannot be loaded"
 print(json.dumps([translator.translate(*key) for key in json.load(sys.stdin)]))
 """
+
+
+class CoreTexts(unittest.TestCase):
+    """The core's messages, which the window knows by their fixed words."""
+
+    def test_they_are_those_of_the_core(self):
+        said = "\n".join(map(flat, (common.ROOT / "src").rglob("*.rs")))
+        for message in core_texts.TRANSLATED:
+            for part in re.split(r"{\d}", message):
+                self.assertTrue(part.strip(" ;:()") in said, f"the core does not say: {message}")
+
+    def test_what_the_core_says_is_known_and_anything_else_stays(self):
+        done = common.morph(common.packed("base.step"), common.packed("base.frd"), "--factor", "-1")
+        refused = common.morph(common.packed("base.step"), common.awkward("mirrored"))
+        said = [refused.stderr.strip().removeprefix("bladesmith: "), *done.report["warnings"]]
+        self.assertGreater(len(said), 3)
+        for text in said:
+            shouted = core_texts.localised(text, str.upper)
+            self.assertNotEqual(shouted, text)
+            self.assertEqual(shouted.lower(), text.lower())
+        self.assertEqual(core_texts.localised("something else", str.upper), "something else")
 
 
 class Translations(unittest.TestCase):

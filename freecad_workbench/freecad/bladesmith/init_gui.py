@@ -4,6 +4,7 @@ from pathlib import Path
 
 import FreeCADGui
 
+from . import log
 from .commands import exchange
 from .commands.morph import Morph
 from .commands.names import COMMANDS, icon
@@ -43,6 +44,7 @@ class BladesmithWorkbench(FreeCADGui.Workbench):
         return "Gui::PythonWorkbench"
 
 
+log.start("FreeCAD")
 FreeCADGui.addLanguagePath(str(_RESOURCES / "translations"))
 FreeCADGui.updateLocale()
 FreeCADGui.addIconPath(str(_RESOURCES / "icons"))

@@ -99,6 +99,23 @@ class Panel(unittest.TestCase):
                 self.assertIsNone(self.panel.error, said)
                 self.assertRegex(said, pattern)
 
+    def test_lengths_are_plain_millimetres(self):
+        tolerance, match = (
+            child(QtGui.QDoubleSpinBox, name) for name in ("tolerance", "matchTolerance")
+        )
+        self.assertEqual((tolerance.text(), match.text()), ("0.001000 mm", "automatic"))
+        match.setValue(0.02)
+        self.checked(PACKED / "base.frd.gz")
+        self.assertAlmostEqual(float(self.morph.MatchTolerance), 0.02)
+        match.setValue(0)
+        self.morph.Tolerance = 0.0010004
+        self.checked(PACKED / "coarse.frd.gz")
+        self.assertEqual(
+            float(self.morph.Tolerance), 0.0010004, "digits that are not shown are lost"
+        )
+        self.assertEqual(float(self.morph.MatchTolerance), 0.0)
+        self.morph.Tolerance = 0.001
+
     def test_what_is_told_to_do_helps(self):
         unit = child(QtGui.QComboBox, "fieldUnit")
         self.checked(AWKWARD / "metres.frd")
@@ -119,7 +136,7 @@ class Panel(unittest.TestCase):
         field = PACKED / "base.frd.gz"
         self.assertIn("only solid 1 is morphed", self.checked(field, "two solids"))
         self.assertIsNone(self.panel.error)
-        self.assertRegex(self.checked(field, "faces"), "no solid, it holds 5 faces.*sew them")
+        self.assertRegex(self.checked(field, "faces"), "no solid, it holds 5 faces only; sew")
         self.assertIsNotNone(self.panel.error)
         with self.assertRaisesRegex(InputError, "no solid in this file"):
             exchange.insert(str(PACKED / "faces_only.step.gz"), self.document.Name)

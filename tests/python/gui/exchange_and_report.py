@@ -8,6 +8,7 @@ from unittest import mock
 
 import FreeCAD
 import FreeCADGui
+from freecad.bladesmith import log
 from freecad.bladesmith.commands import exchange
 from freecad.bladesmith.features import fem, morph, shown
 from freecad.bladesmith.native import InputError
@@ -38,7 +39,7 @@ class Exchange(unittest.TestCase):
 
     def menu_module(self, kinds):
         """The module that FreeCAD's menus use for our file type."""
-        self.assertIn("freecad.bladesmith.commands.exchange", kinds)
+        self.assertEqual(kinds.count("freecad.bladesmith.commands.exchange"), 1, kinds)
         return importlib.import_module("freecad.bladesmith.commands.exchange")
 
     def morphed(self):
@@ -60,11 +61,21 @@ class Exchange(unittest.TestCase):
         cold = str(self.folder / "cold.step")
         self.menu_module(FreeCAD.getExportType("step")).export([obj], cold)
         found = step.read(cold)
-        self.assertEqual(found.product, "Riegel")
+        self.assertEqual(found.product, "cold")
         self.assertEqual(found.solids[0].face_names, NAMES)
         self.assertEqual(found.solids[0].face_colours, COLOURS)
         with self.assertRaisesRegex(InputError, "select one solid"):
             exchange.export([obj, obj.Source], cold)
+
+    def test_what_ends_an_import_or_export_is_in_the_log(self):
+        missing = str(self.folder / "missing.step")
+        with self.assertRaisesRegex(InputError, "No such file"):
+            exchange.insert(missing, self.document.Name)
+        with self.assertRaisesRegex(InputError, "not 0 objects"):
+            exchange.export([], missing)
+        text = log.path().read_text()
+        for expected in (r"FreeCAD: Bladesmith \d", "missing.step: No such file", "not 0 objects"):
+            self.assertRegex(text, expected)
 
     def test_colours_of_the_view_are_exported_where_no_file_said_any(self):
         box = self.document.addObject("Part::Box", "Box")

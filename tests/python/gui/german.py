@@ -4,6 +4,7 @@ import unittest
 
 import FreeCADGui
 from freecad.bladesmith.commands import exchange
+from freecad.bladesmith.taskpanels import words
 from PySide import QtGui
 from window import EXAMPLE, child, press_dialog, press_toolbar, screenshot
 
@@ -16,5 +17,7 @@ class German(unittest.TestCase):
         self.assertEqual(child(QtGui.QGroupBox, "fieldGroup").title(), "Verschiebungen")
         self.assertEqual(child(QtGui.QPushButton, "morph").text(), "Morphen")
         self.assertEqual(child(QtGui.QComboBox, "fieldObject").currentText(), "einer Datei")
+        kept = "the field holds Face2 still; its gradient jumps at the edges there"
+        self.assertIn("Das Feld hält Face2 fest", words.for_panel(kept))
         screenshot("9-german")
         press_dialog(QtGui.QDialogButtonBox.Cancel)

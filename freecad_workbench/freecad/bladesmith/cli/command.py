@@ -57,8 +57,16 @@ def _failed(error: BladesmithError) -> int:
     return error.exit_code
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str):
+        """Ends with exit code 2."""
+        self.exit(2, f"bladesmith: {message}; see '{self.prog} --help'\n")
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="bladesmith",
         description="Hot-to-cold morphing of CAD solids by a finite-element displacement field.",
         epilog=_EPILOG,
@@ -79,8 +87,9 @@ def _add_morph(commands) -> None:
         "morph",
         help="move a STEP solid by a displacement field",
         description="Moves the solid of a STEP file: x_out = x_in + F * u(x_in). The displacements "
-        "u are given at the nodes of a mesh of that same solid, so F = -1 takes a hot "
-        "part to its first-order cold shape. Faces, their order, names and colours stay.",
+        "u are given at the nodes of a mesh of that same solid, so F = 1, the default, adds them "
+        "(cold to hot), and F = -1 takes them away: it brings a hot part to its first-order cold "
+        "shape. Faces, their order, names and colours stay.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -101,7 +110,11 @@ def _add_field_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--step", type=_count, metavar="N", help="result step (default: the last)")
     group.add_argument(
-        "--factor", type=_number, default=1.0, metavar="F", help="on the displacements (default 1)"
+        "--factor",
+        type=_number,
+        metavar="F",
+        help="on the displacements: 1 adds them (cold to hot), -1 takes them away (hot to cold); "
+        "default 1",
     )
     group.add_argument(
         "--field-unit", choices=sorted(FIELD_UNITS_MM), help="length unit of the field file"
@@ -149,8 +162,8 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
         "--holdout", action="store_true", help="also fit without a tenth of the nodes, as a test"
     )
     group.add_argument("--threads", type=_count, metavar="N", help="default: all processors")
-    group.add_argument("--json", metavar="FILE", help="write the report")
-    group.add_argument("--report", metavar="DIR", help="write a page with pictures")
+    group.add_argument("--json", metavar="FILE", help="write the report; - for standard output")
+    group.add_argument("--report", metavar="DIR", help="write a page with pictures into a folder")
     group.add_argument("--quiet", action="store_true", help="print errors only")
 
 
@@ -161,7 +174,7 @@ def _add_info(commands) -> None:
         description="Tells what is in a STEP or a field file, in engineering terms.",
     )
     parser.add_argument("file", metavar="FILE", help="STEP, .frd or CSV; may be gzipped")
-    parser.add_argument("--json", metavar="FILE", help="write it as JSON")
+    parser.add_argument("--json", metavar="FILE", help="write it as JSON; - for standard output")
     parser.add_argument("--quiet", action="store_true", help="print errors only")
     parser.set_defaults(run=_run_info)
 
@@ -194,25 +207,23 @@ def _run_info(options: argparse.Namespace) -> int:
 
 
 def _number(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
     if not -1e300 < value < 1e300:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a finite number")
+        raise argparse.ArgumentTypeError(f"expected a finite number, not '{text}'")
     return value
 
 
 def _positive(text: str) -> float:
     value = _number(text)
     if value <= 0:
-        raise argparse.ArgumentTypeError(f"'{text}' is not above zero")
+        raise argparse.ArgumentTypeError(f"expected a number above zero, not '{text}'")
     return value
 
 
 def _count(text: str) -> int:
-    value = int(text)
-    if not 1 <= value < 2**32:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number from 1")
-    return value
-
-
-_number.__name__ = _positive.__name__ = "number"
-_count.__name__ = "whole number"
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) < 2**32):
+        raise argparse.ArgumentTypeError(f"expected a whole number from 1, not '{text}'")
+    return int(text)

@@ -2,16 +2,19 @@
 
 import argparse
 import json
+import sys
 from pathlib import Path
 
+from ..model.words import counted
 from ..native import Field, Part
 from ..occ import judge, step
-from ..operations.outputs import Outputs, check_target
+from ..operations.outputs import STDOUT, Outputs, check_target
 
 
 def run(options: argparse.Namespace) -> int:
     """Runs the command; returns its exit code."""
-    if options.json:
+    to_stdout = options.json == STDOUT
+    if options.json and not to_stdout:
         check_target(options.json, "the figures")
     if step.is_step(step.first_bytes(options.file)):
         document = _part_document(options.file)
@@ -19,12 +22,14 @@ def run(options: argparse.Namespace) -> int:
     else:
         document = {"kind": "field", **Field.read(options.file).info()}
         lines = _field_lines(document)
-    if options.json:
+    text = json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+    if to_stdout:
+        sys.stdout.write(text)
+    elif options.json:
         with Outputs() as outputs:
-            text = json.dumps(document, indent=1, ensure_ascii=False) + "\n"
             Path(outputs.file(options.json)).write_text(text, "utf-8")
             outputs.commit()
-    if not options.quiet:
+    if not (options.quiet or to_stdout):
         print("\n".join(lines))
     return 0
 
@@ -55,15 +60,15 @@ def _part_document(path: str) -> dict:
 
 
 def _part_lines(document: dict) -> list[str]:
-    count = len(document["solids"])
-    lines = [f"{document['name']}: {count} solid{'s' if count > 1 else ''}, {document['product']}"]
+    solids = counted(len(document["solids"]), "solid")
+    lines = [f"{document['name']}: {solids}, {document['product']}"]
     for solid in document["solids"]:
         name = f" {solid['name']}" if solid["name"] else ""
         checked = "valid" if solid["valid"] else "not valid"
         closed = "closed" if solid["closed"] else "open"
         lines.append(
-            f"solid {solid['index']}{name}: {len(solid['faces'])} faces, {solid['edges']} edges, "
-            f"{checked}, {closed}"
+            f"solid {solid['index']}{name}: {counted(len(solid['faces']), 'face')}, "
+            f"{counted(solid['edges'], 'edge')}, {checked}, {closed}"
         )
         lines += _box_lines(solid["bounding_box_mm"], "mm")
         width = max(len(face["name"]) for face in solid["faces"])
@@ -100,11 +105,16 @@ def _field_lines(document: dict) -> list[str]:
         kinds = ", ".join(f"{e['count']} {e['kind']}" for e in document["elements"])
         lines.append(f"  elements {kinds}")
     unit = document["unit_guess"]
-    lines += _box_lines(document["bounds"], f"{unit} (by the size)")
+    if unit:
+        lines += _box_lines(document["bounds"], f"{unit} (by the size)")
+    else:
+        place = ", ".join(f"{c:.6g}" for c in document["bounds"][0])
+        lines.append(f"  all nodes in one place, ({place})")
     for step_ in document["steps"]:
         used = ", used" if step_["number"] == document["step"] else ""
         time = "" if step_["time"] is None else f", {_kind_of_time(step_)} {step_['time']:g}"
-        lines.append(f"  step {step_['number']}: {step_['rows']} displacements{time}{used}")
+        rows = counted(step_["rows"], "displacement")
+        lines.append(f"  step {step_['number']}: {rows}{time}{used}")
     blocks = ", ".join(f"{block['name']} ({block['rows']})" for block in document["blocks"])
     if blocks:
         lines.append(f"  blocks {blocks}")

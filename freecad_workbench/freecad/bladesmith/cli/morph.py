@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional
 
-from ..model import FIELD_UNITS_MM, MorphOptions, Report
+from ..model import DEFAULT_FACTOR, FIELD_UNITS_MM, MorphOptions, Report
 from ..native import InputError, SetupError
 from ..occ import judge, step
-from ..operations.export import write_step
+from ..operations.export import morphed_product, write_step
 from ..operations.faces import selected
 from ..operations.morph import FieldFile, Job, accept
 from ..operations.morph import run as run_job
-from ..operations.outputs import Outputs, check_target
+from ..operations.outputs import STDOUT, Outputs, check_target
 from . import interruption
 from .progress import Progress
 from .summary import print_summary
@@ -54,6 +54,8 @@ def run(options: argparse.Namespace) -> int:
     missed = result.report.misses(options.tolerance)
     if not options.quiet:
         print_summary(options, result.report)
+    if options.json == STDOUT:
+        sys.stdout.write(result.report.to_json())
     if missed:
         print(
             f"bladesmith: the largest deviation, {result.report.deviation_mm.max:.2e} mm, is "
@@ -74,20 +76,25 @@ def _check_targets(options: argparse.Namespace) -> None:
     inputs = [options.part, options.field] + ([options.mesh] if options.mesh else [])
     seen: list[str] = []
     for what, target in targets.items():
-        if target is None:
+        if target is None or (target == STDOUT and what == "the report"):
             continue
         check_target(target, what)
         if os.path.realpath(target) in map(os.path.realpath, inputs + seen):
             raise InputError(f"{target}: {what} would overwrite another file of this command")
         seen.append(target)
     if options.report:
-        check_target(options.report, "the pages", directory=True)
-        _check_pictures()
+        _check_page(options.report)
 
 
-def _check_pictures() -> None:
+def _check_page(folder: str) -> None:
     from importlib.util import find_spec
 
+    if Path(folder).suffix.lower() in (".html", ".htm"):
+        raise InputError(
+            f"{folder}: --report takes a folder, in which it writes report.html and its pictures; "
+            f"give {Path(folder).with_suffix('')}"
+        )
+    check_target(folder, "--report", directory=True)
     if find_spec("matplotlib") is None:
         raise SetupError(
             "--report needs matplotlib: install it ('apt-get install python3-matplotlib' on "
@@ -133,7 +140,7 @@ def _settings(
         )
     names = [] if chosen is None else part.solids[chosen].face_names
     return MorphOptions(
-        factor=options.factor,
+        factor=DEFAULT_FACTOR if options.factor is None else options.factor,
         tolerance_mm=options.tolerance,
         match_tolerance_mm=options.match_tolerance or 0.0,
         field_unit_mm=FIELD_UNITS_MM[options.field_unit] if options.field_unit else 0.0,
@@ -160,7 +167,8 @@ def _write_solid(
     verdict = judge.judge(result.shape)
     accept(result.report, verdict, result.hot, f"{options.output} was not written")
     progress("writing", _CORE_DONE + 0.05)
-    written = write_step(outputs, options.output, result.shape, part.product, result.attributes)
+    product = morphed_product(options.output, part.product)
+    written = write_step(outputs, options.output, result.shape, product, result.attributes)
     if verdict.valid:
         accept(result.report, written, result.hot, f"{options.output} was not written")
     result.report.judged(written.valid and verdict.valid, written.closed)
@@ -178,9 +186,10 @@ def _write_report(
 
         folder = outputs.directory(options.report)
         progress("drawing", _CORE_DONE + 0.2)
-        result.report.seconds["total"] = time.monotonic() - started
+        began = time.monotonic()
         shapes = (result.hot, result.shape)
         write_page(folder, result.report, shapes, result.nodes, options.tolerance)
+        result.report.seconds["draw"] = time.monotonic() - began
     result.report.seconds["total"] = time.monotonic() - started
-    if options.json:
+    if options.json and options.json != STDOUT:
         Path(outputs.file(options.json)).write_text(result.report.to_json(), "utf-8")

@@ -8,17 +8,20 @@ from pathlib import Path
 import FreeCAD
 import FreeCADGui
 
+from .. import log
 from ..features import attributes, exchange
 from ..native import InputError
 from ..viewproviders.morph import diffuse
 
-FILTER = "STEP with names of faces (*.step *.stp *.STEP *.STP)"
+IMPORT_FILTER = "STEP with names of faces (*.step *.stp *.step.gz *.stp.gz)"
+EXPORT_FILTER = "STEP with names of faces (*.step *.stp)"
+"""In lower case only: FreeCAD compares suffixes in any case, and lists a module once for each."""
 
 
 def register() -> None:
     """Adds the file type to FreeCAD's menus."""
-    FreeCAD.addImportType(FILTER, __name__)
-    FreeCAD.addExportType(FILTER, __name__)
+    FreeCAD.addImportType(IMPORT_FILTER, __name__)
+    FreeCAD.addExportType(EXPORT_FILTER, __name__)
 
 
 def open(path: str):  # noqa: A001 (FreeCAD asks for this name)
@@ -28,6 +31,7 @@ def open(path: str):  # noqa: A001 (FreeCAD asks for this name)
     return document
 
 
+@log.kept("FreeCAD, STEP import")
 def insert(path: str, document_name: str) -> list:
     """The solids of a file in an open document; returns their objects."""
     document = FreeCAD.getDocument(document_name)
@@ -42,6 +46,7 @@ def insert(path: str, document_name: str) -> list:
     return found
 
 
+@log.kept("FreeCAD, STEP export")
 def export(objects: list, path: str) -> None:
     """Writes one solid; raises :class:`InputError` for any other number of objects."""
     if len(objects) != 1:

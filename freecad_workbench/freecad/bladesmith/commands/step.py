@@ -28,7 +28,7 @@ class ImportStep:
     def Activated(self):
         """Imports the file the user chooses."""
         window = FreeCADGui.getMainWindow()
-        path = QtGui.QFileDialog.getOpenFileName(window, "", "", exchange.FILTER)[0]
+        path = QtGui.QFileDialog.getOpenFileName(window, "", "", exchange.IMPORT_FILTER)[0]
         if not path:
             return
         if FreeCAD.ActiveDocument is None:
@@ -67,8 +67,7 @@ class ExportStep:
         """Writes to the file the user names."""
         obj = FreeCADGui.Selection.getSelection()[0]
         window = FreeCADGui.getMainWindow()
-        path = QtGui.QFileDialog.getSaveFileName(window, "", f"{obj.Label}.step", exchange.FILTER)[
-            0
-        ]
+        name = f"{obj.Label}.step"
+        path = QtGui.QFileDialog.getSaveFileName(window, "", name, exchange.EXPORT_FILTER)[0]
         if path:
             exchange.export([obj], path)

@@ -18,7 +18,7 @@ PROPERTIES = (
 def store(obj, product: str, attributes: SolidAttributes) -> None:
     """Writes names and colours into ``obj``, with properties for them where it has none."""
     add_missing(obj, PROPERTIES)
-    obj.FaceNames = attributes.face_names
+    obj.FaceNames = attributes.face_names if attributes.has_face_names else []
     obj.StepAttributes = json.dumps(
         {
             "product": product,

@@ -5,9 +5,10 @@ from pathlib import Path
 from ..native import InputError
 from ..occ import step
 from ..occ.attributes import SolidAttributes
-from ..operations.export import write_step
+from ..operations.export import morphed_product, write_step
 from ..operations.outputs import Outputs, check_target
 from . import attributes
+from .shown import has_result
 
 
 def read(document, path: str) -> list:
@@ -48,6 +49,8 @@ def write(obj, path: str, fallback_colours=None) -> None:
     coloured = said.colour or any(said.face_colours)
     if fallback_colours and not coloured and len(fallback_colours) == len(shape.Faces):
         said.face_colours = fallback_colours
+    if has_result(obj):
+        product = morphed_product(path, product)
     with Outputs() as outputs:
         write_step(outputs, path, shape, product, said)
         outputs.commit()

@@ -13,7 +13,9 @@ from typing import Optional
 import FreeCAD
 
 from ..model import FIELD_UNITS_MM, MorphOptions
+from ..model.words import counted
 from ..native import BladesmithError, InputError
+from ..occ.step import no_solid
 from ..operations.faces import selected
 from ..operations.morph import FieldFile, Job, Progress, Result, complete
 from . import attributes, fem, preferences
@@ -191,13 +193,11 @@ def _source_shape(obj):
         raise InputError(f"{name}: this object has no shape; choose one with a closed solid")
     if not shape.Solids:
         raise InputError(
-            f"{name}: no solid, it holds {len(shape.Faces)} faces that do not close one; "
-            "sew them to a closed solid first"
+            f"{name}: no solid, it holds {counted(len(shape.Faces), 'face')} only; "
+            "sew its faces to a closed one first"
         )
     if not 0 <= obj.Solid <= len(shape.Solids):
-        raise InputError(
-            f"{name}: there is no solid {obj.Solid}; Solid takes 1 to {len(shape.Solids)}, or 0"
-        )
+        raise InputError(f"{name}: {no_solid(obj.Solid, len(shape.Solids), 'Solid')}")
     if obj.Solid or len(shape.Solids) == 1:
         return shape.Solids[max(obj.Solid, 1) - 1]
     return shape

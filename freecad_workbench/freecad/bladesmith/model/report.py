@@ -138,13 +138,19 @@ class Report:
             face["name"] = name or face["name"]
         self.faces = [Face.of(face) for face in self.document["faces"]]
 
-    def warn(self, *texts: str) -> None:
-        """Adds warnings."""
-        self.warnings.extend(texts)
+    def warn(self, *texts: str, first: bool = False) -> None:
+        """Adds warnings: behind the others, or ``first`` where they are graver."""
+        place = 0 if first else len(self.warnings)
+        self.warnings[place:place] = texts
 
     def worst_face(self) -> Optional[Face]:
         """The face with the largest deviation."""
         return max(self.faces, key=lambda face: face.deviation_mm.max, default=None)
+
+    def worst_holdout_face(self) -> Optional[Face]:
+        """The face with the largest hold-out error; None without one."""
+        tested = [face for face in self.faces if face.holdout_mm]
+        return max(tested, key=lambda face: face.holdout_mm.max, default=None)
 
     def widest_edge(self) -> Optional[Edge]:
         """The edge with the largest gap afterwards."""

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Optional
 
 from .. import log
+from ..model.words import counted
 from ..native.errors import InputError
 from . import attributes as step_attributes
 from .attributes import SolidAttributes
@@ -55,8 +56,14 @@ def _read_bytes(path: str, size: int = -1) -> bytes:
             if file.peek(2)[:2] == b"\x1f\x8b":
                 return gzip.open(file).read(size)
             return file.read(size)
-    except (OSError, EOFError, zlib.error) as reason:
-        why = getattr(reason, "strerror", None) or str(reason)
+    except EOFError:
+        raise InputError(
+            f"{path}: the gzipped file ends early: it is truncated; copy it again"
+        ) from None
+    except (gzip.BadGzipFile, zlib.error) as reason:
+        raise InputError(f"{path}: the gzipped file is damaged ({reason}); copy it again") from None
+    except OSError as reason:
+        why = reason.strerror or reason
         raise InputError(f"{path}: {why}; give an existing, readable file") from None
 
 
@@ -110,7 +117,7 @@ def _reason(error: Exception) -> str:
 
 def _no_solid(path: str, shape) -> str:
     faces = 0 if shape.isNull() else len(shape.Faces)
-    holds = f"{faces} faces that do not close a solid" if faces else "no shape"
+    holds = f"{counted(faces, 'face')} only" if faces else "no shape"
     return (
         f"{path}: no solid in this file, it holds {holds}; "
         "export the part as a closed solid (sew its faces in the CAD system first)"
@@ -131,7 +138,7 @@ def _with_attributes(path: str, shape, text: str) -> StepPart:
         if attributes is None and not warnings:
             warnings.append(
                 f"names and colours of solid {index} are lost: "
-                f"its {len(solid_kinds)} faces do not match a solid of the STEP text"
+                f"its faces ({len(solid_kinds)}) do not match a solid of the STEP text"
             )
     attributes = [
         a or SolidAttributes.unknown(len(solid_kinds)) for a, solid_kinds in zip(found, kinds)
@@ -156,10 +163,14 @@ def chosen_solid(part: StepPart, number: Optional[int]) -> Optional[int]:
     if number is None:
         return 0 if len(part.solids) == 1 else None
     if number > len(part.solids):
-        raise InputError(
-            f"{part.path}: there is no solid {number}; --solid takes 1 to {len(part.solids)}"
-        )
+        raise InputError(f"{part.path}: {no_solid(number, len(part.solids), '--solid')}")
     return number - 1
+
+
+def no_solid(number: int, count: int, option: str) -> str:
+    """That a part with ``count`` solids has not this one, and what ``option`` takes."""
+    remedy = f"{option} takes 1 to {count}" if count > 1 else f"leave {option} out"
+    return f"there is no solid {number}: the part has {count}; {remedy}"
 
 
 def nearest_solid(solids, shape) -> int:

@@ -12,6 +12,15 @@ from .outputs import Outputs
 _TOOL = f"Bladesmith {__version__}"
 
 
+def morphed_product(target: str, source: str) -> str:
+    """Name of a morphed part's product: its file's, which is not to be that of its ``source``.
+
+    Systems that manage parts tell them apart by this name.
+    """
+    name = Path(target).stem
+    return f"{name} morphed" if name == source else name
+
+
 def write_step(
     outputs: Outputs, target: str, shape, product: str, attributes: SolidAttributes
 ) -> judge.Verdict:

@@ -140,5 +140,6 @@ def accept(report: Report, verdict: judge.Verdict, hot, target: str) -> None:
         raise BladesmithError(f"{target}: Open CASCADE finds the morphed solid {what}")
     report.warn(
         f"the input solid is {'; '.join(before.complaints)}, and so is the result: {what}; "
-        "repair the input in the CAD system"
+        "repair the input in the CAD system",
+        first=True,
     )

@@ -11,6 +11,9 @@ from pathlib import Path
 
 from ..native.errors import InputError
 
+STDOUT = "-"
+"""In place of a file's name: standard output."""
+
 
 class Outputs:
     """A context manager: leaving it by an exception, or without ``commit``, removes everything."""
@@ -70,8 +73,11 @@ def check_target(target: str, what: str, directory: bool = False) -> None:
     if not os.access(folder, os.W_OK):
         raise InputError(f"{target}: the folder {folder} for {what} cannot be written to")
     if path.is_dir() != directory and path.exists():
-        expected = "a folder" if directory else "a file"
-        raise InputError(f"{target}: {what} needs {expected} here, give another name")
+        kinds = ("a folder", "a file")
+        expected, found = kinds if directory else reversed(kinds)
+        raise InputError(
+            f"{target}: for {what} {expected} is expected, and this is {found}; give another name"
+        )
 
 
 def _folder(path: Path) -> str:

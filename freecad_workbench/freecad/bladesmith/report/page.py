@@ -35,7 +35,8 @@ def write_page(
     ``shapes`` are the solid before and after, ``nodes`` the core's results by node and face.
     """
     images = _pictures(folder, shapes, nodes, tolerance_mm)
-    Path(folder, "report.html").write_text(_page(report, images, tolerance_mm), "utf-8")
+    page = _page(report, images, tolerance_mm, len(set(nodes["ids"].tolist())))
+    Path(folder, "report.html").write_text(page, "utf-8")
 
 
 def _pictures(
@@ -71,7 +72,9 @@ def _pictures(
     return found
 
 
-def _page(report: Report, images: list[tuple[str, str]], tolerance_mm: float) -> str:
+def _page(
+    report: Report, images: list[tuple[str, str]], tolerance_mm: float, nodes_on_faces: int
+) -> str:
     name = escape(Path(report.input["solid"]).name)
     said = words.sentences(report, tolerance_mm)
     figures = [
@@ -82,12 +85,12 @@ def _page(report: Report, images: list[tuple[str, str]], tolerance_mm: float) ->
     sections = [
         f"<h1>Morph of {name}</h1>",
         f'<p class="origin">by {escape(Path(report.input["field"]).name)}, '
-        f"factor {report.input['factor']:g}</p>",
+        f"{escape(words.way(report))}</p>",
         f'<div class="verdict {words.state(report, tolerance_mm)}">'
         f'<p class="main">{escape(said[0])}</p>',
         *(f"<p>{escape(sentence)}</p>" for sentence in said[1:]),
         "</div>",
-        _figures(report),
+        _figures(report, nodes_on_faces),
         _warnings(report),
         "<h2>The part</h2>",
         *figures[:2],
@@ -96,7 +99,8 @@ def _page(report: Report, images: list[tuple[str, str]], tolerance_mm: float) ->
         "<h2>The solid</h2>",
         solid_table(report),
         "<h2>Faces</h2>",
-        '<p class="note">Largest deviation first. Lengths in mm.</p>',
+        '<p class="note">Largest deviation first. Lengths in mm. Nodes on an edge count for both '
+        "its faces.</p>",
         f'<div class="scroll">{faces_table(report, tolerance_mm)}</div>',
         "<h2>Edges</h2>",
         '<p class="note">Largest gap first. Lengths in mm.</p>',
@@ -115,13 +119,13 @@ def _page(report: Report, images: list[tuple[str, str]], tolerance_mm: float) ->
     )
 
 
-def _figures(report: Report) -> str:
+def _figures(report: Report, nodes_on_faces: int) -> str:
     volume = report.volume_mm3
     change = volume.after / volume.before - 1 if volume.before else 0.0
     shown = [
         ("largest deviation, mm", words.length(report.deviation_mm.max)),
         ("mean deviation, mm", words.length(report.deviation_mm.mean)),
-        ("nodes on faces", str(sum(face.nodes for face in report.faces))),
+        ("nodes on the part", str(nodes_on_faces)),
         ("change of volume", f"{change:+.3%}"),
     ]
     if report.holdout_mm:

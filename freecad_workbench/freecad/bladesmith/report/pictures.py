@@ -103,7 +103,8 @@ def exaggerated_picture(scene: Scene) -> tuple:
     panels = []
     for camera in both.cameras():
         drawing = raster.draw(mesh, camera)
-        panels.append((shading.part_image(drawing, ghost=raster.draw(scene.hot, camera)), ""))
+        title = f"movement × {scale:g}, red: edges of the input"
+        panels.append((shading.part_image(drawing, ghost=raster.draw(scene.hot, camera)), title))
     return _panels(panels, both.cameras()[0]), scale
 
 

@@ -184,7 +184,10 @@ def _keep_nearest(drawing: Drawing, triangle, place, height) -> None:
 def visible_lines(drawing: Drawing, thickness: int) -> numpy.ndarray:
     """(height, width) the pixels of the mesh's edge lines and of its outline, as far as seen."""
     column, row, height = _line_pixels(drawing.camera, drawing.mesh)
-    seen = height + 1.5 * thickness >= _lowest_nearby(drawing.height)[row, column]
+    # Beside the part there is nothing to hide a line, but nothing to show one inside it either.
+    surface = numpy.where(drawing.shown, drawing.height, numpy.inf)
+    seen = height + 1.5 * thickness >= _lowest_nearby(surface)[row, column]
+    seen |= ~drawing.shown[row, column]
     mask = _outline(drawing.shown)
     mask[row[seen], column[seen]] = True
     return _thickened(mask, thickness)

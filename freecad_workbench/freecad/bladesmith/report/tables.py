@@ -5,6 +5,7 @@ from html import escape
 from typing import Optional
 
 from ..model import Report
+from ..model.words import direction
 from .words import length, opened
 
 
@@ -29,14 +30,18 @@ def _cells(tag: str, cells: Sequence[str], text_columns: int) -> list[str]:
 def faces_table(report: Report, tolerance_mm: float) -> str:
     """All faces, the largest deviation first; those beyond the tolerance are marked."""
     heads = ["Face", "Name", "Degree", "Poles", "Nodes", "Spans", "filled"]
-    heads += ["Foot max", "Deviation mean", "max", "Re-projected max", "Hold-out mean", "max"]
+    heads += ["Foot max", "Deviation mean", "max", "Re-projected max"]
+    if report.holdout_mm:
+        heads += ["Hold-out mean", "max"]
     rows = []
     for face in sorted(report.faces, key=lambda face: -face.deviation_mm.max):
         name = face.name + (" (held)" if face.held else "")
         cells = [str(face.index), name, _pair(face.degree), _pair(face.poles)]
         cells += [str(face.nodes), str(face.spans), str(face.spans_filled)]
         cells += [length(face.foot_mm.max), *_spread(face.deviation_mm)]
-        cells += [length(face.distance_mm.max), *_spread(face.holdout_mm)]
+        cells.append(length(face.distance_mm.max))
+        if report.holdout_mm:
+            cells += _spread(face.holdout_mm)
         beyond = face.deviation_mm.max > tolerance_mm
         rows.append((cells, "bad" if beyond else "odd" if not face.nodes else ""))
     return table(heads, rows, text_columns=2)
@@ -80,7 +85,7 @@ def input_table(report: Report) -> str:
         ("Solid", given["solid"]),
         ("Field", given["field"]),
         ("Result step", str(given["step"])),
-        ("Factor on the displacements", f"{given['factor']:g}"),
+        ("Factor", f"{given['factor']:g}: {direction(given['factor'])}"),
         ("Nodes of the field", str(given["nodes"])),
         ("Made with", f"{tool['name']} {tool['version']}"),
     ]
@@ -92,4 +97,4 @@ def _pair(values) -> str:
 
 
 def _spread(spread: Optional[object]) -> list[str]:
-    return ["", ""] if spread is None else [length(spread.mean), length(spread.max)]
+    return ["–", "–"] if spread is None else [length(spread.mean), length(spread.max)]

@@ -1,6 +1,7 @@
 """What a report comes to, in words."""
 
 from ..model import Report
+from ..model.words import counted, direction
 
 _TANGENT_DEG = 0.1
 """A tangent joint opened by more than this is named."""
@@ -9,9 +10,16 @@ _TANGENT_DEG = 0.1
 def state(report: Report, tolerance_mm: float) -> str:
     """``bad``: not to be used as it is; ``odd``: with warnings or opened joints; else ``good``."""
     solid = report.solid
-    if report.misses(tolerance_mm) or not solid["closed"] or solid["valid"] is False:
+    unsound = not solid["closed"] or solid["valid"] is False or solid["folded"]
+    if unsound or report.misses(tolerance_mm):
         return "bad"
-    return "odd" if report.warnings or solid["folded"] or opened(report) else "good"
+    return "odd" if report.warnings or opened(report) else "good"
+
+
+def way(report: Report) -> str:
+    """The factor and which way it moved the part."""
+    factor = report.input["factor"]
+    return f"factor {factor:g}: {direction(factor)}"
 
 
 def opened(report: Report) -> list:
@@ -34,6 +42,8 @@ def sentences(report: Report, tolerance_mm: float) -> list[str]:
         found = [f"{said}: beyond the tolerance of {tolerance_mm:g} mm."]
     else:
         found = [f"{said}, within the tolerance of {tolerance_mm:g} mm."]
+    if solid["folded"]:
+        found.insert(0, f"The result is folded, not to be used: {_folds(solid)}.")
     found.append(_solid_sentence(solid))
     edge = report.widest_edge()
     if edge:
@@ -43,7 +53,8 @@ def sentences(report: Report, tolerance_mm: float) -> list[str]:
         )
     found += _tangency_sentences(report)
     if report.unmatched:
-        found.append(f"{report.unmatched} nodes of the mesh's surface lie on no face.")
+        nodes = counted(report.unmatched, "node")
+        found.append(f"On no face: {nodes} of the mesh's surface.")
     return found
 
 
@@ -54,8 +65,12 @@ def _solid_sentence(solid: dict) -> str:
         None: "The solid was not judged",
     }[solid["valid"]]
     closed = "closed" if solid["closed"] else "open"
-    folds = f"{solid['folded']} samples are folded" if solid["folded"] else "nothing is folded"
-    return f"{judged}; it is {closed}, has {solid['faces']} faces, and {folds}."
+    folds = "" if solid["folded"] else ", and nothing is folded"
+    return f"{judged}; it is {closed}, has {counted(solid['faces'], 'face')}{folds}."
+
+
+def _folds(solid: dict) -> str:
+    return f"{counted(solid['folded'], 'sampled normal')} turned against the input's"
 
 
 def _tangency_sentences(report: Report) -> list[str]:

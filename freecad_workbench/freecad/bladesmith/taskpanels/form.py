@@ -7,11 +7,12 @@ from PySide import QtCore, QtGui
 
 from ..features import fem, morph
 from ..model import FIELD_UNITS_MM
+from ..model.words import way
 from .words import translate
 
-_FILTERS = {
-    "fieldFile": "Displacements (*.frd *.csv *.txt *.gz);;All files (*)",
-    "meshFile": "Mesh (*.inp *.gz);;All files (*)",
+_PATTERNS = {
+    "fieldFile": "*.frd *.csv *.txt *.frd.gz *.csv.gz *.txt.gz",
+    "meshFile": "*.inp *.inp.gz",
 }
 _TEXTS = {"fieldFile": "FieldFile", "meshFile": "MeshFile"}
 _NAMES = {"moving": "MovingFaces", "fixed": "FixedFaces"}
@@ -20,8 +21,11 @@ _NUMBERS = {
     "step": "Step",
     "factor": "Factor",
     "displacementScale": "DisplacementScale",
+    "tolerance": "Tolerance",
+    "matchTolerance": "MatchTolerance",
 }
-_LENGTHS = {"tolerance": "Tolerance", "matchTolerance": "MatchTolerance"}
+_SHOWN_DIGIT = 1e-6
+"""The last digit of a number; what a property has beyond it is kept."""
 _TICKS = {"extrapolate": "Extrapolate", "holdout": "Holdout"}
 
 
@@ -45,7 +49,7 @@ class Form(QtCore.QObject):
         widget.source.addItems([o.Label for o in self._sources])
         widget.fieldObject.addItem(translate("a file"))
         widget.fieldObject.addItems([o.Label for o in self._results[1:]])
-        widget.fieldUnit.addItems([translate("not stated: millimetres"), *FIELD_UNITS_MM])
+        widget.fieldUnit.addItems([translate("mm, assumed"), *FIELD_UNITS_MM])
 
     def read(self):
         """Shows the object's properties."""
@@ -61,9 +65,8 @@ class Form(QtCore.QObject):
             quoted = [f'"{n}"' if "," in n else n for n in getattr(obj, prop)]
             getattr(widget, name).setText(", ".join(quoted))
         for name, prop in _NUMBERS.items():
-            getattr(widget, name).setValue(getattr(obj, prop))
-        for name, prop in _LENGTHS.items():
-            getattr(widget, name).setProperty("rawValue", float(getattr(obj, prop)))
+            box = getattr(widget, name)
+            box.setValue(type(box.value())(getattr(obj, prop)))
         for name, prop in _TICKS.items():
             getattr(widget, name).setChecked(getattr(obj, prop))
         self._enable()
@@ -79,11 +82,10 @@ class Form(QtCore.QObject):
         found.update((p, getattr(widget, n).text().strip()) for n, p in _TEXTS.items())
         found.update((p, _listed(getattr(widget, n).text())) for n, p in _NAMES.items())
         found.update((p, getattr(widget, n).value()) for n, p in _NUMBERS.items())
-        found.update((p, getattr(widget, n).property("rawValue")) for n, p in _LENGTHS.items())
         found.update((p, getattr(widget, n).isChecked()) for n, p in _TICKS.items())
         for prop, value in found.items():
-            if prop in _LENGTHS.values():
-                same = float(getattr(obj, prop)) == value
+            if prop in _NUMBERS.values():
+                same = abs(float(getattr(obj, prop)) - value) < _SHOWN_DIGIT / 2
             else:
                 same = getattr(obj, prop) == value
             if not same:
@@ -97,8 +99,6 @@ class Form(QtCore.QObject):
             getattr(widget, name).textChanged.connect(self._on_change)
         for name in _NUMBERS:
             getattr(widget, name).valueChanged.connect(self._on_change)
-        for name in _LENGTHS:
-            getattr(widget, name).textChanged.connect(self._on_change)
         for name in _TICKS:
             getattr(widget, name).toggled.connect(self._on_change)
         for name in _TEXTS:
@@ -113,6 +113,7 @@ class Form(QtCore.QObject):
         self.changed.emit()
 
     def _enable(self):
+        self.widget.direction.setText(translate(way(self.widget.factor.value())))
         from_file = self.widget.fieldObject.currentIndex() == 0
         for name in (
             "fieldFile",
@@ -127,7 +128,9 @@ class Form(QtCore.QObject):
     def _browse(self, name: str):
         edit = getattr(self.widget, name)
         title = translate("Choose a file")
-        path = QtGui.QFileDialog.getOpenFileName(self.widget, title, edit.text(), _FILTERS[name])[0]
+        kind = translate("Displacements") if name == "fieldFile" else translate("Mesh")
+        filters = f"{kind} ({_PATTERNS[name]});;{translate('All files')} (*)"
+        path = QtGui.QFileDialog.getOpenFileName(self.widget, title, edit.text(), filters)[0]
         if path:
             edit.setText(path)
 

@@ -10,7 +10,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from ..features import morph
+from ..features import morph, shown
 from ..model import Report
 from ..native import BladesmithError, Cancelled
 from ..occ.drawing import with_triangles
@@ -19,6 +19,7 @@ from . import words
 from .form import Form
 from .words import translate
 from .worker import Worker
+from .wrapping import Wrapping
 
 _UI = Path(__file__).parents[1] / "resources" / "panels" / "morph.ui"
 _PAUSE_MS = 250
@@ -36,6 +37,7 @@ class MorphPanel:
         self.error = None
         """The :class:`BladesmithError` that is shown, or None."""
         self._fields = Form(self.form, obj)
+        self._texts = Wrapping(self.form.check, self.form.result)
         self._worker, self._checker = Worker(), Worker()
         self._close_after = False
         self._pause = QtCore.QTimer(self.form)
@@ -125,6 +127,7 @@ class MorphPanel:
         if self.busy:
             return
         self._fields.write()
+        self._show_result()
         if not self.obj.FieldFile and self.obj.FieldObject is None:
             text = translate("Choose a file with displacements, or a result of the FEM workbench.")
             self._say(words.plain(text))
@@ -139,11 +142,11 @@ class MorphPanel:
 
     def _say(self, text: str):
         self.error = None
-        self.form.check.setText(text)
+        self._texts.set_text(self.form.check, text)
 
     def _refuse(self, error: BladesmithError):
         self.error = error
-        self.form.check.setText(words.error(str(error)))
+        self._texts.set_text(self.form.check, words.error(str(error)))
 
     def _progress(self, stage: str, fraction: float):
         self.form.progress.setValue(round(1000 * fraction))
@@ -158,6 +161,7 @@ class MorphPanel:
             self._refuse(BladesmithError(self.obj.getStatusString()))
             return
         self._show_result()
+        self._reveal(self.form.resultGroup)
         if self._close_after:
             self.accept()
 
@@ -168,6 +172,7 @@ class MorphPanel:
             self._say(words.error(translate("Stopped; the object stays as it was.")))
             return
         self._refuse(error)
+        self._show_result()
         FreeCAD.Console.PrintError(f"Bladesmith: {words.for_panel(str(error))}\n")
 
     def _enable(self, enabled: bool):
@@ -180,8 +185,9 @@ class MorphPanel:
         text = self.obj.ReportJson
         self.form.resultGroup.setVisible(bool(text))
         if text:
-            self.form.result.setText(words.result(Report.of_text(text), float(self.obj.Tolerance)))
-            self._reveal(self.form.resultGroup)
+            report, tolerance = Report.of_text(text), float(self.obj.Tolerance)
+            current = shown.is_current(self.obj)
+            self._texts.set_text(self.form.result, words.result(report, tolerance, current))
         known = FreeCADGui.listCommands()
         self.form.showResult.setVisible("Bladesmith_ShowResult" in known)
 

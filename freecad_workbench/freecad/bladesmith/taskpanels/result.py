@@ -17,7 +17,7 @@ from ..viewproviders.result_colours import Overlay, zoom
 from .report_page import ReportPage
 from .result_form import UNITS_MM, ResultForm, titles
 from .words import error as error_line
-from .words import plain, translate, verdict
+from .words import outdated, translate, verdict
 
 _SMALL_MM = 0.01
 """A scale that ends below is better read in micrometres."""
@@ -95,7 +95,7 @@ class ResultPanel:
     def _say_verdict(self, report: Report) -> None:
         said = verdict(report, float(self._obj.Tolerance))
         if not shown.is_current(self._obj):
-            said += plain(translate("The inputs have changed since: recompute to see their result"))
+            said = outdated() + said
         self.form.verdict.setText(said)
 
     def _prepared(self):

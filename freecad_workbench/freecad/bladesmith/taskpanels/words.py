@@ -7,9 +7,11 @@ from FreeCAD import Qt
 
 from ..features.naming import in_property_names
 from ..model import Report
+from ..model.words import way
 from ..report import words
+from .core_texts import localised
 
-_GOOD, _ODD, _BAD = "#2e7d32", "#b26a00", "#c62828"
+_GOOD, _ODD, _BAD, _GREY = "#2e7d32", "#b26a00", "#c62828", "#808080"
 TRANSLATED = (
     "placing nodes on faces",
     "fitting each face",
@@ -18,8 +20,11 @@ TRANSLATED = (
     "rebuilding the solid",
     "measuring the result",
     "drawing",
+    "cold to hot",
+    "hot to cold",
+    "nothing moves",
 )
-"""Stages of a morph, as the core names them."""
+"""Stages of a morph, as the core names them, and which way it goes."""
 
 
 def translate(text: str) -> str:
@@ -29,7 +34,7 @@ def translate(text: str) -> str:
 
 def for_panel(text: str) -> str:
     """A message with the panel's fields in place of properties and options."""
-    text = in_property_names(text)
+    text = in_property_names(localised(text, translate))
     fields = {
         "FieldUnit": translate("Length unit:"),
         "DisplacementScale": translate("Scale"),
@@ -83,9 +88,18 @@ def check(info: dict, placement: dict) -> str:
     return "".join([*lines, *(_warning(text) for text in placement["warnings"])])
 
 
-def result(report: Report, tolerance_mm: float) -> str:
-    """The verdict of a report, and its warnings."""
-    return "".join([verdict(report, tolerance_mm), *map(_warning, report.warnings)])
+def result(report: Report, tolerance_mm: float, current: bool) -> str:
+    """The verdict of a report, and its warnings; all in grey where the input is another by now."""
+    text = "".join([verdict(report, tolerance_mm), *map(_warning, report.warnings)])
+    if current:
+        return text
+    grey = re.sub(r"color:#\w+", f"color:{_GREY}", text)
+    return f'{outdated()}<div style="color:{_GREY}">{grey}</div>'
+
+
+def outdated() -> str:
+    """That a result is not that of the input as it is."""
+    return _line(translate("The input has changed since. The result before the change:"), _ODD)
 
 
 def verdict(report: Report, tolerance_mm: float) -> str:
@@ -97,16 +111,20 @@ def verdict(report: Report, tolerance_mm: float) -> str:
         text = translate("Largest deviation {0} mm, on {1}: within the tolerance of {2} mm")
     text = text.format(words.length(report.deviation_mm.max), worst.name, f"{tolerance_mm:g}")
     lines = [_line(text, _BAD if report.misses(tolerance_mm) else _GOOD)]
+    if solid["folded"]:
+        lines.insert(0, _line(translate("The result is folded: not to be used"), _BAD))
     sound = solid["valid"] and solid["closed"]
     lines.append(
         _line(translate("The solid is valid and closed"), _GOOD)
         if sound
         else _line(translate("The solid is not valid, or open"), _BAD)
     )
+    factor = report.input["factor"]
+    lines.append(_line(translate("Factor {0}").format(f"{factor:g}: {translate(way(factor))}")))
     if report.holdout_mm:
-        text = translate("Hold-out error: mean {0} mm, largest {1} mm")
+        text = translate("Hold-out error: mean {0} mm, largest {1} mm, on {2}")
         figures = (words.length(value) for value in (report.holdout_mm.mean, report.holdout_mm.max))
-        lines.append(_line(text.format(*figures)))
+        lines.append(_line(text.format(*figures, report.worst_holdout_face().name)))
     edge = report.widest_edge()
     if edge:
         text = translate("Largest gap {0} mm, at Edge{1}; {2} mm before")
@@ -127,5 +145,5 @@ def _warning(text: str) -> str:
 
 
 def _line(text: str, colour: str = "") -> str:
-    style = f"margin:2px 0;{f'color:{colour}' if colour else ''}"
+    style = f"margin:2px 0;color:{colour}" if colour else "margin:2px 0"
     return f'<p style="{style}">{escape(text)}</p>'

@@ -1,5 +1,6 @@
 """How a morph looks: its icon, its source below it in the tree, and where the source is shown."""
 
+import json
 from pathlib import Path
 
 import FreeCADGui
@@ -10,8 +11,9 @@ from ..features import attributes, preferences
 _ICON = str(Path(__file__).parents[1] / "resources" / "icons" / "Bladesmith_Morph.svg")
 
 OVER, BESIDE, ALONE = LAYOUTS = ("Over its source", "Beside its source", "Alone")
-_SEE_THROUGH = 70
-"""Transparency of a source that its result lies over, percent."""
+_LINES = {"DisplayMode": "Wireframe", "LineColor": (0.80, 0.12, 0.10, 0.0), "LineWidth": 1.0}
+"""How a source is seen that its result lies over: as lines, because two surfaces that nearly
+coincide show through each other in patches."""
 _COLD = (0.55, 0.71, 0.86)
 """Colour of a result whose source has none of its own."""
 _APART = 1.2
@@ -94,8 +96,9 @@ class MorphView:
         _restore(view)
         source.ViewObject.Visibility = view.Layout != ALONE
         if view.Layout == OVER:
-            view.SourceTransparency = source.ViewObject.Transparency
-            source.ViewObject.Transparency = _SEE_THROUGH
+            shown = source.ViewObject
+            view.SourceLook = json.dumps({name: getattr(shown, name) for name in _LINES})
+            _set(shown, _LINES)
 
     def dumps(self):
         """Nothing: the properties hold all."""
@@ -111,21 +114,23 @@ def _add_properties(view):
         tip = "Where the result stands to its source"
         view.addProperty("App::PropertyEnumeration", "Layout", "Bladesmith", tip)
         view.Layout = list(LAYOUTS)
-    if "SourceTransparency" not in view.PropertiesList:
-        tip = "Transparency the source had before, or -1"
-        view.addProperty(
-            "App::PropertyInteger", "SourceTransparency", "Bladesmith", tip, 0, False, True
-        )
-        view.SourceTransparency = -1
+    if "SourceLook" not in view.PropertiesList:
+        tip = "How the source was shown before, as JSON; empty: as it is"
+        view.addProperty("App::PropertyString", "SourceLook", "Bladesmith", tip, 0, False, True)
 
 
 def _restore(view):
     """Shows the source as it was before the result lay over it."""
     source = view.Object.Source
-    if source is not None and view.SourceTransparency >= 0:
-        source.ViewObject.Transparency = view.SourceTransparency
+    if source is not None and view.SourceLook:
+        _set(source.ViewObject, json.loads(view.SourceLook))
         source.ViewObject.Visibility = True
-    view.SourceTransparency = -1
+    view.SourceLook = ""
+
+
+def _set(view, values: dict):
+    for name, value in values.items():
+        setattr(view, name, tuple(value) if isinstance(value, list) else value)
 
 
 def _colour(obj):

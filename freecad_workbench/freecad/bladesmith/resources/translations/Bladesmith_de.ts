@@ -8,6 +8,10 @@
    <translation>Eine Skala braucht zwei Zahlen, die kleinere zuerst, und beide über null, wo sie logarithmisch ist.</translation>
   </message>
   <message>
+   <source>All files</source>
+   <translation>Alle Dateien</translation>
+  </message>
+  <message>
    <source>Angle, °</source>
    <translation>Winkel, °</translation>
   </message>
@@ -52,6 +56,10 @@
    <translation>Verschiebung Z</translation>
   </message>
   <message>
+   <source>Displacements</source>
+   <translation>Verschiebungen</translation>
+  </message>
+  <message>
    <source>Drawing the report …</source>
    <translation>Bericht wird gezeichnet …</translation>
   </message>
@@ -80,6 +88,10 @@
    <translation>Face{0}, Knoten {1}</translation>
   </message>
   <message>
+   <source>Factor {0}</source>
+   <translation>Faktor {0}</translation>
+  </message>
+  <message>
    <source>From</source>
    <translation>Von</translation>
   </message>
@@ -96,8 +108,8 @@
    <translation>Spalte und Tangentialität je Kante</translation>
   </message>
   <message>
-   <source>Hold-out error: mean {0} mm, largest {1} mm</source>
-   <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm</translation>
+   <source>Hold-out error: mean {0} mm, largest {1} mm, on {2}</source>
+   <translation>Fehler an zurückgehaltenen Knoten: Mittel {0} mm, größter {1} mm, auf {2}</translation>
   </message>
   <message>
    <source>How much the angle of a tangent joint grew</source>
@@ -144,6 +156,10 @@
    <translation>Schlechteste Stelle markieren</translation>
   </message>
   <message>
+   <source>Mesh</source>
+   <translation>Netz</translation>
+  </message>
+  <message>
    <source>Movement</source>
    <translation>Bewegung</translation>
   </message>
@@ -188,8 +204,12 @@
    <translation>Der Spalt der Eingabe</translation>
   </message>
   <message>
-   <source>The inputs have changed since: recompute to see their result</source>
-   <translation>Die Eingaben haben sich seither geändert: neu berechnen, um ihr Ergebnis zu sehen</translation>
+   <source>The input has changed since. The result before the change:</source>
+   <translation>Die Eingaben haben sich seither geändert. Das Ergebnis davor:</translation>
+  </message>
+  <message>
+   <source>The result is folded: not to be used</source>
+   <translation>Das Ergebnis ist gefaltet: nicht verwenden</translation>
   </message>
   <message>
    <source>The solid is not valid, or open</source>
@@ -220,12 +240,44 @@
    <translation>einen größeren Wert bei Zuordnen bis</translation>
   </message>
   <message>
+   <source>a morph needs at least {0} that do not lie in one line</source>
+   <translation>ein Morph braucht mindestens {0}, die nicht auf einer Geraden liegen</translation>
+  </message>
+  <message>
    <source>a tick at Extrapolate</source>
    <translation>ein Häkchen bei Extrapolieren</translation>
   </message>
   <message>
+   <source>all displacements are zero: the result equals the input</source>
+   <translation>Alle Verschiebungen sind null: das Ergebnis gleicht der Eingabe</translation>
+  </message>
+  <message>
+   <source>areas without nodes on {0}, {1} mm² in all: {2}; give --extrapolate to extend the field over them</source>
+   <translation>Bereiche ohne Knoten auf {0}, zusammen {1} mm²: {2}; um das Feld dorthin fortzusetzen, angeben: --extrapolate</translation>
+  </message>
+  <message>
+   <source>beside held faces</source>
+   <translation>neben festgehaltenen Flächen</translation>
+  </message>
+  <message>
+   <source>cold to hot</source>
+   <translation>kalt nach heiß</translation>
+  </message>
+  <message>
    <source>drawing</source>
    <translation>Darstellung</translation>
+  </message>
+  <message>
+   <source>edges gape by up to {0} mm: {1}</source>
+   <translation>Kanten klaffen um bis zu {0} mm: {1}</translation>
+  </message>
+  <message>
+   <source>elsewhere</source>
+   <translation>anderswo</translation>
+  </message>
+  <message>
+   <source>empty knot spans: {0} of {1} on {2}: their poles follow the regularisation alone</source>
+   <translation>Leere Knotenspannen: {0} von {1} auf {2}: ihre Pole folgen allein der Regularisierung</translation>
   </message>
   <message>
    <source>fitting all faces together</source>
@@ -240,16 +292,24 @@
    <translation>ohne jeden zehnten Knoten anpassen</translation>
   </message>
   <message>
+   <source>hot to cold</source>
+   <translation>heiß nach kalt</translation>
+  </message>
+  <message>
    <source>measuring the result</source>
    <translation>Ergebnis vermessen</translation>
+  </message>
+  <message>
+   <source>mm, assumed</source>
+   <translation>mm, angenommen</translation>
   </message>
   <message>
    <source>movement × {0}</source>
    <translation>Bewegung × {0}</translation>
   </message>
   <message>
-   <source>not stated: millimetres</source>
-   <translation>ohne Angabe: Millimeter</translation>
+   <source>nothing moves</source>
+   <translation>nichts bewegt sich</translation>
   </message>
   <message>
    <source>placing nodes on faces</source>
@@ -268,6 +328,26 @@
    <translation>Schritt {0} von {1}</translation>
   </message>
   <message>
+   <source>tangent joints open by up to {0}° {1}: edges {2}</source>
+   <translation>Tangentiale Übergänge öffnen sich um bis zu {0}° {1}: Kanten {2}</translation>
+  </message>
+  <message>
+   <source>the displacement was computed on the given shape and taken away from it: the result is a first-order estimate of the unloaded shape; the second-order term |∇u|·|u| reaches about {0} mm</source>
+   <translation>Die Verschiebung wurde an der gegebenen Form berechnet und von ihr weggenommen: das Ergebnis ist eine Schätzung erster Ordnung der unbelasteten Form; das Glied zweiter Ordnung |∇u|·|u| erreicht etwa {0} mm</translation>
+  </message>
+  <message>
+   <source>the field has no elements: {0} of {1} nodes lie on the faces, the others are taken as inside</source>
+   <translation>Das Feld hat keine Elemente: {0} von {1} Knoten liegen auf den Flächen, die anderen gelten als innere</translation>
+  </message>
+  <message>
+   <source>the field holds {0} still; its gradient jumps at the edges there</source>
+   <translation>Das Feld hält {0} fest; sein Gradient springt dort an den Kanten</translation>
+  </message>
+  <message>
+   <source>the largest displacement, {0} mm, is {1} times the part's size ({2} mm): the solid would be folded; check the unit of the displacements (--displacement-scale scales them alone) and the factor</source>
+   <translation>Die größte Verschiebung, {0} mm, ist {1} mal so groß wie das Teil ({2} mm): der Körper würde gefaltet; Einheit der Verschiebungen (--displacement-scale skaliert nur sie) und Faktor prüfen</translation>
+  </message>
+  <message>
    <source>to</source>
    <translation>bis</translation>
   </message>
@@ -280,8 +360,32 @@
    <translation>{0} Knoten der Netzoberfläche liegen auf keiner Fläche</translation>
   </message>
   <message>
+   <source>{0} of {1} surface nodes lie on no face within {2} mm and are not used (ids {3})</source>
+   <translation>{0} von {1} Oberflächenknoten liegen auf keiner Fläche innerhalb von {2} mm und werden nicht verwendet (Nummern {3})</translation>
+  </message>
+  <message>
    <source>{0} of {1} tangent joints opened</source>
    <translation>{0} von {1} tangentialen Übergängen haben sich geöffnet</translation>
+  </message>
+  <message>
+   <source>{0}: a deck (.inp) has a mesh but no displacements: give the results of its run (.frd) here, and the deck as their mesh</source>
+   <translation>{0}: ein Deck (.inp) hat ein Netz, aber keine Verschiebungen: hier die Ergebnisse seiner Rechnung (.frd) angeben und das Deck als ihr Netz</translation>
+  </message>
+  <message>
+   <source>{0}: only {1} with a displacement: {2}</source>
+   <translation>{0}: nur {1} mit Verschiebung: {2}</translation>
+  </message>
+  <message>
+   <source>{0}: the FE model does not lie on the geometry of {1}: {2} of {3} nodes are within {4} mm, the median distance is {5} mm; check that both are in the same place, orientation (not mirrored) and unit, or give --match-tolerance</source>
+   <translation>{0}: das FE-Modell liegt nicht auf der Geometrie von {1}: {2} von {3} Knoten liegen näher als {4} mm, der mittlere Abstand (Median) ist {5} mm; prüfen, ob beide am selben Ort, gleich ausgerichtet (nicht gespiegelt) und in derselben Einheit sind, oder angeben: --match-tolerance</translation>
+  </message>
+  <message>
+   <source>{0}: the mesh measures {1} and the part {2} mm, a ratio of {3}: the field seems to be in {4}; give {5}</source>
+   <translation>{0}: das Netz misst {1} und das Teil {2} mm, ein Verhältnis von {3}: das Feld scheint in {4} zu sein; angeben: {5}</translation>
+  </message>
+  <message>
+   <source>{0}: the {1} nodes with a displacement lie in one line: {2}</source>
+   <translation>{0}: die {1} Knoten mit Verschiebung liegen auf einer Geraden: {2}</translation>
   </message>
   <message>
    <source>{0}: {1} nodes with a displacement, {2}</source>
@@ -625,8 +729,16 @@
    <translation>Was die Eingabe enthält</translation>
   </message>
   <message>
+   <source>Which way the factor moves the part</source>
+   <translation>In welche Richtung der Faktor das Teil bewegt</translation>
+  </message>
+  <message>
    <source>all faces</source>
    <translation>alle Flächen</translation>
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation>automatisch</translation>
   </message>
   <message>
    <source>none</source>

@@ -1,0 +1,13 @@
+//! The tests of this folder as one program: linking a program takes longer than compiling its tests.
+//! What is neither here nor in Cargo.toml is not run; a test of `layering.rs` looks for it.
+
+mod brep;
+mod brep_malformed;
+mod ffi;
+mod header;
+#[path = "intersect/main.rs"]
+mod intersect;
+mod invert;
+mod layering;
+mod p5_files;
+mod package;
