@@ -108,7 +108,7 @@ impl NurbsSurface {
         let (nu, nv) = (ku.table(su, u, order), kv.table(sv, v, order));
         let weight = |i: usize| self.weights().map_or(1.0, |w| w[i]);
         let row = |i: usize| (su - ku.degree() + i) * kv.len() + sv - kv.degree();
-        let indices = || (0..=ku.degree()).flat_map(|i| row(i)..=row(i) + kv.degree());
+        let indices = || (0..ku.degree() + 1).flat_map(|i| row(i)..row(i) + kv.degree() + 1);
         let (origin, base) = origin(indices().map(|i| self.poles()[i]), indices().map(weight));
         let mut jet: Vec<_> = (0..=order).map(|k| vec![DVec3::ZERO; order + 1 - k]).collect();
         let mut w: Vec<_> = (0..=order).map(|k| vec![0.0; order + 1 - k]).collect();
