@@ -110,6 +110,62 @@ fn feet_of_points_off_the_surface_are_where_they_came_from() {
     }
 }
 
+#[test]
+fn a_batch_finds_what_single_questions_find() {
+    let mut random = Random(4);
+    for rational in [false, true] {
+        let surface = random_surface(&mut random, [3, 2], rational);
+        let inverter = SurfaceInverter::new(&surface).unwrap();
+        let points: Vec<DVec3> = (0..500).map(|_| random.vector(5.0) + DVec3::new(6.0, 5.0, 0.0)).collect();
+        let (many, parallel) = (inverter.nearest_many(&points), inverter.nearest_many_parallel(&points));
+        assert_eq!(many.len(), points.len());
+        for ((&p, a), b) in points.iter().zip(&many).zip(&parallel) {
+            let one = inverter.nearest(p).distance;
+            assert!((a.distance - one).abs() < 1e-12, "{a:?} instead of {one} from {p}");
+            assert!((b.distance - one).abs() < 1e-12, "{b:?} instead of {one} from {p}");
+            assert!(surface.point(a.at.x, a.at.y).distance(a.point) < 1e-12, "{a:?}");
+        }
+        assert!(inverter.nearest_many(&[]).is_empty());
+    }
+}
+
+#[test]
+fn size_and_place_do_not_matter() {
+    for (size, off) in [(1e-3, DVec3::ZERO), (1e-3, DVec3::new(1e3, -500.0, 70.0)), (1e4, DVec3::ONE)] {
+        let mut random = Random(5);
+        let plain = random_surface(&mut random, [3, 3], false);
+        let poles = plain.poles().iter().map(|&x| x * size + off).collect();
+        let moved = NurbsSurface::new(plain.knots_u().clone(), plain.knots_v().clone(), poles, None).unwrap();
+        let inverters = [&plain, &moved].map(|s| SurfaceInverter::new(s).unwrap());
+        let rounding = 1e-14 * (off.length() + 20.0 * size);
+        for _ in 0..500 {
+            let p = random.vector(4.0) + DVec3::new(6.0, 4.0, 0.0);
+            let [a, b] = [inverters[0].nearest(p), inverters[1].nearest(p * size + off)];
+            let error = (a.distance * size - b.distance).abs();
+            assert!(error < rounding, "times {size} at {off}: {b:?} instead of {a:?}, off by {error}");
+        }
+    }
+}
+
+#[test]
+fn the_nose_of_a_blade_keeps_its_feet() {
+    // A parabola of 0.05 mm radius at its end, swept along z: parameters run fast along the sides.
+    let k = KnotVector::clamped(2, &[-1.0, 1.0]).unwrap();
+    let line = KnotVector::clamped(1, &[0.0, 1.0]).unwrap();
+    let at = |x: f64, y: f64| [DVec3::new(x, y, 0.0), DVec3::new(x, y, 100.0)];
+    let poles = [at(100.0, -10f64.sqrt()), at(-100.0, 0.0), at(100.0, 10f64.sqrt())].concat();
+    let surface = NurbsSurface::new(k, line, poles, None).unwrap();
+    let inverter = SurfaceInverter::new(&surface).unwrap();
+    let mut random = Random(6);
+    for _ in 0..2000 {
+        let uv = DVec2::new(random.within(-1.0, 1.0).powi(5), random.within(0.0, 1.0));
+        let d = surface.derivatives(uv.x, uv.y);
+        let p = d.s + d.normal().normalize() * random.within(-0.02, 0.02);
+        let found = inverter.nearest(p);
+        assert!(found.distance <= p.distance(d.s) + 1e-12, "{found:?} instead of {uv}");
+    }
+}
+
 /// A full circle of nine poles.
 fn circle() -> NurbsCurve<DVec2> {
     let s = std::f64::consts::FRAC_1_SQRT_2;

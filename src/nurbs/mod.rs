@@ -22,7 +22,7 @@ pub mod removal;
 mod span_table;
 pub mod split;
 pub mod surface;
-mod wide;
+pub(crate) mod wide;
 
 pub use basis::KnotVector;
 pub use curve::{NurbsCurve, Point};

@@ -174,7 +174,7 @@ impl NurbsSurface {
 }
 
 /// Divides homogeneous derivatives by those of the weight (eq. 4.20), up to the second order.
-pub(super) fn divide<const K: usize>(jet: &mut [[DVec3; K]; K], weight: &[[f64; K]; K]) {
+pub(crate) fn divide<const K: usize>(jet: &mut [[DVec3; K]; K], weight: &[[f64; K]; K]) {
     let binomial = |n: usize, k: usize| if n == 2 && k == 1 { 2.0 } else { 1.0 };
     for k in 0..K {
         for l in 0..K - k {

@@ -8,7 +8,7 @@
 use std::ops::{Add, Mul, Sub};
 
 /// Four numbers; operations work on each.
-pub(super) trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(crate) trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     fn splat(x: f64) -> Self;
     fn load(x: &[f64; 4]) -> Self;
     fn store(self, out: &mut [f64; 4]);
@@ -20,13 +20,13 @@ pub(super) trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
 }
 
 /// Something to do with fours, all of it `#[inline(always)]`.
-pub(super) trait Work {
+pub(crate) trait Work {
     /// Does it.
     fn run<F: Four>(self);
 }
 
 /// Does the work with the widest registers that the processor and this crate know.
-pub(super) fn run(work: impl Work) {
+pub(crate) fn run(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         // SAFETY: the processor has the one feature that the function asks for.

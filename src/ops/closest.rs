@@ -1,6 +1,6 @@
 //! The foot of a point on a surface, from a start nearby (The NURBS Book, section 6.1).
 
-use crate::nurbs::NurbsSurface;
+use crate::nurbs::{NurbsSurface, SurfaceDerivatives};
 use glam::{DVec2, DVec3};
 
 /// A foot point.
@@ -14,71 +14,140 @@ pub struct Foot {
     pub distance: f64,
 }
 
-/// Steps end when they move the foot by less than this, in mm.
-const STEP_MM: f64 = 1e-11;
+/// Steps end when they are shorter than this fraction of the coordinates.
+const STEP: f64 = 1e-14;
 
-/// A full Newton step shorter than this, in mm, leaves less than [`STEP_MM`]: the error is squared.
-const NEWTON_MM: f64 = 1e-7;
+/// A full Newton step below this fraction of the parameters leaves nothing to do: the error is
+/// squared.
+const NEWTON: f64 = 1e-8;
 
 /// Steps at most.
 const STEPS: usize = 30;
+
+/// Halvings of one step at most.
+const HALVINGS: usize = 20;
 
 /// The local nearest point of `surface` to `p`, by damped Newton steps from `start`, kept within
 /// the knot domain. Finds a local minimum only: the caller starts from every place of interest.
 pub fn foot(surface: &NurbsSurface, p: DVec3, start: DVec2) -> Foot {
     let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
-    foot_within(surface, p, start, [DVec2::new(u0, v0), DVec2::new(u1, v1)])
+    let corners = [DVec2::new(u0, v0), DVec2::new(u1, v1)];
+    let Local { at, point, .. } = descend(surface, p, start, corners);
+    Foot { uv: at, point, distance: (point - p).length() }
 }
 
-/// As [`foot`], kept within the rectangle of parameters from `low` to `high`.
-pub fn foot_within(surface: &NurbsSurface, p: DVec3, start: DVec2, [low, high]: [DVec2; 2]) -> Foot {
-    let mut uv = start.clamp(low, high);
-    let mut d = surface.derivatives(uv.x, uv.y);
+/// Something with a point and derivatives at each pair of parameters.
+pub(crate) trait Jet {
+    fn jet(&self, at: DVec2) -> SurfaceDerivatives;
+}
+
+impl Jet for NurbsSurface {
+    #[inline(always)]
+    fn jet(&self, at: DVec2) -> SurfaceDerivatives {
+        self.derivatives(at.x, at.y)
+    }
+}
+
+/// Where the steps have led.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Local {
+    pub at: DVec2,
+    pub point: DVec3,
+    /// How fast the distance squared, halved, grows inwards from bounds that hold the foot.
+    pub push: DVec2,
+    /// Whether the steps came to rest.
+    pub settled: bool,
+}
+
+/// As [`foot`], for anything with derivatives over a rectangle of parameters.
+#[inline(always)]
+pub(crate) fn descend(shape: &impl Jet, p: DVec3, start: DVec2, [low, high]: [DVec2; 2]) -> Local {
+    let mut at = start.clamp(low, high);
+    let mut d = shape.jet(at);
+    let mut push = DVec2::ZERO;
     for _ in 0..STEPS {
         let r = d.s - p;
         let gradient = DVec2::new(d.u.dot(r), d.v.dot(r));
         // A coordinate at its bound with the descent pointing out is frozen.
         let frozen = |x: f64, a: f64, b: f64, g: f64| (x <= a && g > 0.0) || (x >= b && g < 0.0);
-        let stuck = [frozen(uv.x, low.x, high.x, gradient.x), frozen(uv.y, low.y, high.y, gradient.y)];
-        let (step, newton) = newton_step(&d, r, gradient, stuck);
-        let mut next = (uv + step).clamp(low, high);
-        let mut e = surface.derivatives(next.x, next.y);
+        let stuck = [frozen(at.x, low.x, high.x, gradient.x), frozen(at.y, low.y, high.y, gradient.y)];
+        push = DVec2::from(stuck.map(|s| f64::from(u8::from(s)))) * gradient.abs();
+        if stuck == [true; 2] {
+            return Local { at, point: d.s, push, settled: true };
+        }
+        let (mut step, mut newton) = newton_step(&d, r, gradient, stuck);
+        // A step against its bound although the descent points away from it: along the other.
+        let blocked = |x: f64, a: f64, b: f64, s: f64| (x <= a && s < 0.0) || (x >= b && s > 0.0);
+        let against = [blocked(at.x, low.x, high.x, step.x), blocked(at.y, low.y, high.y, step.y)];
+        if against != [false; 2] {
+            (step, newton) = (newton_step(&d, r, gradient, against).0, false);
+        }
+        let mut next = within(at, step, low, high);
+        let moved = next - at;
+        if newton && (step.abs() / (high - low)).max_element() < NEWTON {
+            let point = d.s
+                + d.u * moved.x
+                + d.v * moved.y
+                + 0.5 * (d.uu * moved.x * moved.x + d.vv * moved.y * moved.y)
+                + d.uv * moved.x * moved.y;
+            return Local { at: next, point, push, settled: true };
+        }
+        let noise = STEP * (p.abs().max_element() + d.s.abs().max_element());
+        let mut e = shape.jet(next);
         let mut halvings = 0;
-        while (e.s - p).length_squared() > r.length_squared() * (1.0 + 1e-14) + 1e-24 && halvings < 20 {
-            next = 0.5 * (uv + next);
-            e = surface.derivatives(next.x, next.y);
+        while (e.s - p).length_squared() > r.length_squared() * (1.0 + 1e-14) + 0.01 * noise * noise
+            && halvings < HALVINGS
+        {
+            next = 0.5 * (at + next);
+            e = shape.jet(next);
             halvings += 1;
         }
-        let moved = (d.u * (next.x - uv.x)).length() + (d.v * (next.y - uv.y)).length();
-        uv = next;
-        d = e;
-        if moved < STEP_MM || (moved < NEWTON_MM && newton && halvings == 0) {
-            break;
+        let moved = (d.u * (next.x - at.x)).length() + (d.v * (next.y - at.y)).length();
+        (at, d) = (next, e);
+        if moved <= noise {
+            return Local { at, point: d.s, push, settled: true };
         }
     }
-    Foot { uv, point: d.s, distance: (d.s - p).length() }
+    Local { at, point: d.s, push, settled: false }
+}
+
+/// The end of a step, or where it meets the bounds: cut off coordinate by coordinate it might lead
+/// uphill.
+#[inline(always)]
+fn within(at: DVec2, step: DVec2, low: DVec2, high: DVec2) -> DVec2 {
+    let part = |x: f64, a: f64, b: f64, s: f64| {
+        if x + s > b {
+            (b - x) / s
+        } else if x + s < a {
+            (a - x) / s
+        } else {
+            1.0
+        }
+    };
+    let (x, y) = (part(at.x, low.x, high.x, step.x), part(at.y, low.y, high.y, step.y));
+    let end = (at + step * x.min(y)).clamp(low, high);
+    // Rounding must not keep it off the bound.
+    let snap = |e: f64, part: f64, least: f64, a: f64, b: f64, s: f64| {
+        if part < 1.0 && part == least { if s > 0.0 { b } else { a } } else { e }
+    };
+    let least = x.min(y);
+    DVec2::new(snap(end.x, x, least, low.x, high.x, step.x), snap(end.y, y, least, low.y, high.y, step.y))
 }
 
 /// The Newton step, or the Gauss-Newton step where the Hessian is not positive definite, and
 /// whether it is the former.
-fn newton_step(
-    d: &crate::nurbs::SurfaceDerivatives,
-    r: DVec3,
-    gradient: DVec2,
-    stuck: [bool; 2],
-) -> (DVec2, bool) {
+#[inline(always)]
+fn newton_step(d: &SurfaceDerivatives, r: DVec3, gradient: DVec2, stuck: [bool; 2]) -> (DVec2, bool) {
     let (guu, guv, gvv) = (d.u.dot(d.u), d.u.dot(d.v), d.v.dot(d.v));
-    let floor = 1e-300;
+    let floor = f64::MIN_POSITIVE;
     if stuck[0] || stuck[1] {
         let along = |g: f64, gg: f64, second: f64| {
-            let h = if gg + second > 0.1 * gg { gg + second } else { gg };
-            -g / h.max(floor)
+            let h = gg + second;
+            if h > 0.1 * gg { (-g / h.max(floor), true) } else { (-g / gg.max(floor), false) }
         };
-        let step = DVec2::new(
-            if stuck[0] { 0.0 } else { along(gradient.x, guu, r.dot(d.uu)) },
-            if stuck[1] { 0.0 } else { along(gradient.y, gvv, r.dot(d.vv)) },
-        );
-        return (step, false);
+        let ((x, in_u), (y, in_v)) =
+            (along(gradient.x, guu, r.dot(d.uu)), along(gradient.y, gvv, r.dot(d.vv)));
+        return if stuck[0] { (DVec2::new(0.0, y), in_v) } else { (DVec2::new(x, 0.0), in_u) };
     }
     let solve = |a: f64, b: f64, c: f64| {
         let det = a * c - b * b;
@@ -89,8 +158,15 @@ fn newton_step(
     if let Some(step) = solve(guu + r.dot(d.uu), guv + r.dot(d.uv), gvv + r.dot(d.vv)) {
         return (step, true);
     }
-    let steepest = || DVec2::new(-gradient.x / guu.max(floor), -gradient.y / gvv.max(floor)) * 0.5;
-    (solve(guu, guv, gvv).unwrap_or_else(steepest), false)
+    (solve(guu, guv, gvv).unwrap_or_else(|| steepest(d, gradient, stuck)), false)
+}
+
+/// Half the Gauss-Newton step of each coordinate by itself.
+fn steepest(d: &SurfaceDerivatives, gradient: DVec2, stuck: [bool; 2]) -> DVec2 {
+    let along = |g: f64, of: DVec3, stuck: bool| {
+        if stuck { 0.0 } else { -0.5 * g / of.length_squared().max(f64::MIN_POSITIVE) }
+    };
+    DVec2::new(along(gradient.x, d.u, stuck[0]), along(gradient.y, d.v, stuck[1]))
 }
 
 #[cfg(test)]

@@ -91,14 +91,13 @@ pub struct SurfacePiece {
 /// The pieces of a surface, `v` fastest.
 ///
 /// # Errors
-/// As [`NurbsSurface::insert_knot`].
+/// As [`NurbsSurface::refined`].
 pub fn surface_pieces(surface: &NurbsSurface) -> Result<Vec<SurfacePiece>> {
     let mut split = surface.clamped()?;
-    for (t, times) in missing(split.knots_u()) {
-        split = split.insert_knot(Direction::U, t, times)?;
-    }
-    for (t, times) in missing(split.knots_v()) {
-        split = split.insert_knot(Direction::V, t, times)?;
+    for direction in [Direction::U, Direction::V] {
+        let new = missing(split.knots(direction)).into_iter();
+        let new: Vec<f64> = new.flat_map(|(t, times)| std::iter::repeat_n(t, times)).collect();
+        split = split.refined(direction, &new)?;
     }
     let (p, q, all) = (split.knots_u().degree(), split.knots_v().degree(), split.knots_v().len());
     let mut out = Vec::new();

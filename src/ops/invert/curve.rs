@@ -3,11 +3,19 @@
 //! minimisation).
 
 use super::bezier::{CurvePiece, curve_pieces};
-use super::search::{BEND_MARGIN, Below, METRIC_MARGIN, SLACK, Search, Shape, stationary};
+use super::search::{Search, Shape, stationary};
+use super::tree::{Bounds, Tree, joined};
 use super::{Nearest, SAME};
 use crate::error::Result;
 use crate::nurbs::{NurbsCurve, Point};
 
+/// The smallest speed on a piece may be this fraction of the smallest one seen, squared.
+const METRIC_MARGIN: f64 = 0.5;
+/// The largest second derivative on a piece may be this many times the largest one seen.
+const BEND_MARGIN: f64 = 1.5;
+/// Pieces are prepared so small that their size stays below this fraction of the distance up to
+/// which they are convex.
+const SLACK: f64 = 0.5;
 /// Places on a piece at which its derivatives are looked at.
 const SAMPLES: usize = 5;
 /// Halvings of a piece while preparing.
@@ -17,7 +25,7 @@ const STEPS: usize = 40;
 
 /// A tube around a chord that holds a stretch of the curve.
 #[derive(Debug, Clone, Copy)]
-struct Tube<P> {
+pub struct Tube<P> {
     start: P,
     chord: P,
     /// 1 over the chord's squared length; 0 for a closed stretch.
@@ -82,6 +90,12 @@ impl<P: Point> Arc<P> {
         self.piece.halves().map(|half| Self::new(curve, half, self.depth + 1))
     }
 
+    /// The box around its control points.
+    fn bounds(&self) -> Bounds {
+        let of = |x: P| [x.coordinates(), x.coordinates()];
+        self.piece.points().map(of).reduce(joined).unwrap_or_default()
+    }
+
     fn start(&self, p: P) -> f64 {
         let [a, b] = self.piece.range;
         let [c, d] = self.middle;
@@ -95,9 +109,9 @@ impl<P: Point> Arc<P> {
 pub struct CurveInverter<P: Point> {
     curve: NurbsCurve<P>,
     arcs: Vec<Arc<P>>,
-    /// Tubes of the implicit binary tree over the arcs: node `k` has the children `2k + 1` and
-    /// `2k + 2`; leaves are the arcs, from node `arcs.len() − 1` on.
     tubes: Vec<Tube<P>>,
+    tree: Tree,
+    extent: f64,
 }
 
 impl<P: Point> CurveInverter<P> {
@@ -118,27 +132,15 @@ impl<P: Point> CurveInverter<P> {
                 arcs.push(arc);
             }
         }
-        let mut this = Self { curve, arcs, tubes: Vec::new() };
-        this.build();
-        Ok(this)
+        let tree = Tree::new(&mut arcs, Arc::bounds);
+        let tubes = arcs.iter().map(|arc| arc.tube).collect();
+        let extent = curve.poles().iter().map(|&x| (x - curve.poles()[0]).length()).fold(0.0, f64::max);
+        Ok(Self { curve, arcs, tubes, tree, extent })
     }
 
     /// The curve.
     pub fn curve(&self) -> &NurbsCurve<P> {
         &self.curve
-    }
-
-    /// Arcs below a node, as a range of leaves; leaves of a complete tree wrap around its last
-    /// level, so a node's arcs are gathered from its children.
-    fn build(&mut self) {
-        let n = self.arcs.len();
-        let mut points: Vec<Vec<P>> = vec![Vec::new(); n - 1];
-        points.extend(self.arcs.iter().map(|arc| arc.piece.points().collect::<Vec<P>>()));
-        for k in (0..n - 1).rev() {
-            let (a, b) = (points[2 * k + 1].clone(), &points[2 * k + 2]);
-            points[k] = a.into_iter().chain(b.iter().copied()).collect();
-        }
-        self.tubes = points.iter().map(|p| Tube::new(p)).collect();
     }
 
     /// The nearest point to `p`, globally.
@@ -152,51 +154,52 @@ impl<P: Point> CurveInverter<P> {
         self.search(p, Some(tie)).ties()
     }
 
-    fn search(&self, p: P, tie: Option<f64>) -> Search<'_, NurbsCurve<P>> {
-        let inner = self.arcs.len() - 1;
-        let mut search = Search::new(&self.curve, 0.0, p, tie);
-        let below = |at: usize| match at.checked_sub(inner) {
-            None => Below::Nodes([2 * at + 1, 2 * at + 2]),
-            Some(arc) => Below::Pieces(&self.arcs[arc..=arc]),
-        };
-        search.descend(below, |at, p| self.tubes[at].nearest_squared(p));
+    fn search(&self, p: P, tie: Option<f64>) -> Search<'_, Self> {
+        let mut search = Search::new(self, p, tie, None);
+        search.descend(&self.tree, &self.arcs, &self.tubes);
         search
     }
 }
 
-impl<P: Point> Shape for NurbsCurve<P> {
+impl<P: Point> Shape for CurveInverter<P> {
     type At = f64;
     type Point = P;
     type Piece = Arc<P>;
+    type Hull = Tube<P>;
 
-    fn bound(arc: &Arc<P>, p: P) -> f64 {
-        arc.tube.nearest_squared(p)
+    fn extent(&self) -> f64 {
+        self.extent
     }
 
-    fn is_convex(arc: &Arc<P>, p: P) -> bool {
-        (p - arc.middle[0]).length() + arc.size < arc.convex
+    fn hull(arc: &Arc<P>) -> Tube<P> {
+        arc.tube
+    }
+
+    fn bound(tube: &Tube<P>, p: P) -> f64 {
+        tube.nearest_squared(p)
     }
 
     fn size(arc: &Arc<P>) -> f64 {
         arc.size
     }
 
-    fn foot(&self, arc: &Arc<P>, p: P) -> Nearest<f64, P> {
-        foot(self, p, arc.start(p), arc.piece.range)
+    fn foot(&self, arc: &Arc<P>, p: P) -> (Nearest<f64, P>, bool) {
+        let is_convex = (p - arc.middle[0]).length() + arc.size < arc.convex;
+        (foot(&self.curve, p, arc.start(p), arc.piece.range), is_convex)
     }
 
     fn halves(&self, arc: Arc<P>) -> [Arc<P>; 2] {
-        arc.halves(self)
+        arc.halves(&self.curve)
     }
 
     fn is_minimum(&self, at: f64, p: P) -> bool {
-        let [c, d, _] = self.derivatives(at);
+        let [c, d, _] = self.curve.derivatives(at);
         let r = c - p;
-        stationary(at, self.knots().domain(), r.dot(d), r.length() * d.length())
+        stationary(at, self.curve.knots().domain(), r.dot(d), r.length() * d.length())
     }
 
     fn same(&self, a: f64, b: f64) -> bool {
-        let (first, last) = self.knots().domain();
+        let (first, last) = self.curve.knots().domain();
         (a - b).abs() < SAME * (last - first)
     }
 }

@@ -3,8 +3,11 @@
 
 pub mod bezier;
 pub mod curve;
+mod patch;
 mod search;
 pub mod surface;
+mod taylor;
+mod tree;
 
 pub use curve::CurveInverter;
 pub use surface::SurfaceInverter;

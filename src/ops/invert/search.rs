@@ -1,18 +1,12 @@
 //! The search that curves and surfaces share: branch and bound over pieces, the nearest first.
 
 use super::Nearest;
+use super::tree::Tree;
 use crate::nurbs::Point;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The smallest metric on a piece may be this fraction of the smallest one seen.
-pub const METRIC_MARGIN: f64 = 0.5;
-/// The largest second derivatives on a piece may be this many times the largest ones seen.
-pub const BEND_MARGIN: f64 = 1.5;
-/// Pieces are prepared so small that their size stays below this fraction of the distance up to
-/// which they are convex.
-pub const SLACK: f64 = 0.5;
-/// Pieces below this fraction of the coordinates are points.
+/// Pieces below this fraction of the whole are points.
 const SMALLEST: f64 = 1e-10;
 /// A slope of the squared distance below this fraction of speed times distance is zero.
 const SLOPE: f64 = 1e-9;
@@ -23,20 +17,24 @@ const HALVINGS: usize = 4096;
 /// A curve or surface whose nearest points are sought.
 pub trait Shape {
     /// Parameters.
-    type At: Copy;
+    type At: Copy + Default;
     /// Points.
     type Point: Point;
     /// Pieces with their bounds.
     type Piece: Clone;
+    /// What holds a piece.
+    type Hull: Copy;
 
-    /// A lower bound of the squared distance from a piece.
-    fn bound(piece: &Self::Piece, p: Self::Point) -> f64;
-    /// Whether the squared distance is convex on the piece.
-    fn is_convex(piece: &Self::Piece, p: Self::Point) -> bool;
+    /// Size of the whole, in the unit of the points.
+    fn extent(&self) -> f64;
+    /// What holds a piece.
+    fn hull(piece: &Self::Piece) -> Self::Hull;
+    /// A lower bound of the squared distance from a hull.
+    fn bound(hull: &Self::Hull, p: Self::Point) -> f64;
     /// Size of the piece, in the unit of the points.
     fn size(piece: &Self::Piece) -> f64;
-    /// A local minimum of the distance within the piece; the only one where it is convex.
-    fn foot(&self, piece: &Self::Piece, p: Self::Point) -> Nearest<Self::At, Self::Point>;
+    /// A local minimum of the distance within the piece, and whether nothing on it is nearer.
+    fn foot(&self, piece: &Self::Piece, p: Self::Point) -> (Nearest<Self::At, Self::Point>, bool);
     /// Both halves of a piece.
     fn halves(&self, piece: Self::Piece) -> [Self::Piece; 2];
     /// Whether the distance has a minimum there: the ends of pieces alone are none.
@@ -45,21 +43,14 @@ pub trait Shape {
     fn same(&self, a: Self::At, b: Self::At) -> bool;
 }
 
-/// What stands below a node of a tree of pieces.
-pub enum Below<'t, T> {
-    /// Pieces.
-    Pieces(&'t [T]),
-    /// Two nodes.
-    Nodes([usize; 2]),
-}
-
 /// One query.
 pub struct Search<'a, S: Shape> {
     shape: &'a S,
     p: S::Point,
     /// The nearest point so far.
     pub best: Nearest<S::At, S::Point>,
-    best_squared: f64,
+    /// Beyond this squared distance nothing matters.
+    reach_squared: f64,
     tie: Option<f64>,
     found: Vec<Nearest<S::At, S::Point>>,
     rest: BinaryHeap<Pending<S::Piece>>,
@@ -67,62 +58,45 @@ pub struct Search<'a, S: Shape> {
 
 impl<'a, S: Shape> Search<'a, S> {
     /// For the nearest point to `p`, and with `tie` for all that are as near to within so much.
-    pub fn new(shape: &'a S, start: S::At, p: S::Point, tie: Option<f64>) -> Self {
-        let best = Nearest { at: start, point: p, distance: f64::INFINITY };
-        let (best_squared, found, rest) = (f64::INFINITY, Vec::new(), BinaryHeap::new());
-        Self { shape, p, best, best_squared, tie, found, rest }
+    /// `known` is some point of the shape, if one is known.
+    pub fn new(shape: &'a S, p: S::Point, tie: Option<f64>, known: Option<Nearest<S::At, S::Point>>) -> Self {
+        let none = Nearest { at: S::At::default(), point: p, distance: f64::INFINITY };
+        let best = known.map_or(none, |k| Nearest { distance: (k.point - p).length(), ..k });
+        let mut search =
+            Self { shape, p, best, reach_squared: 0.0, tie, found: Vec::new(), rest: BinaryHeap::new() };
+        search.improve(best);
+        search
     }
 
-    /// Visits a tree from node 0, the nearer child first; `bound` is a lower bound of the squared
-    /// distance from a node.
-    pub fn descend<'t>(
-        &mut self,
-        below: impl Fn(usize) -> Below<'t, S::Piece>,
-        bound: impl Fn(usize, S::Point) -> f64,
-    ) where
-        S::Piece: 't,
-    {
-        let mut stack = [(0usize, 0.0f64); 64];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (at, least) = stack[height];
-            if self.excludes(least) {
-                continue;
-            }
-            match below(at) {
-                Below::Pieces(pieces) => pieces.iter().for_each(|piece| self.visit(piece)),
-                Below::Nodes([a, b]) => {
-                    let (a, b) = ((a, bound(a, self.p)), (b, bound(b, self.p)));
-                    (stack[height], stack[height + 1]) = if a.1 <= b.1 { (b, a) } else { (a, b) };
-                    height += 2;
-                }
-            }
-        }
+    /// Visits the pieces of a tree, the nearest first; their hulls stand side by side.
+    pub fn descend(&mut self, tree: &Tree, pieces: &[S::Piece], hulls: &[S::Hull]) {
+        let p = self.p;
+        let bound = |leaf: usize| S::bound(&hulls[leaf], p);
+        tree.descend(p.coordinates(), self.reach_squared, bound, |leaf, bound| {
+            self.visit(&pieces[leaf], bound);
+            self.reach_squared
+        });
         self.finish();
     }
 
-    /// Whether nothing at so large a squared distance is wanted.
-    fn excludes(&self, squared: f64) -> bool {
-        match self.tie {
-            None => squared >= self.best_squared,
-            Some(tie) => squared.sqrt() > self.best.distance + tie,
-        }
+    fn improve(&mut self, best: Nearest<S::At, S::Point>) {
+        let reach = best.distance + self.tie.unwrap_or(0.0);
+        (self.best, self.reach_squared) = (best, reach * reach);
     }
 
-    fn visit(&mut self, piece: &S::Piece) {
-        let bound = S::bound(piece, self.p);
-        if self.excludes(bound) {
+    fn visit(&mut self, piece: &S::Piece, bound: f64) {
+        if bound > self.reach_squared {
             return;
         }
-        let found = self.shape.foot(piece, self.p);
+        let (found, only) = self.shape.foot(piece, self.p);
         if found.distance < self.best.distance {
-            (self.best, self.best_squared) = (found, found.distance * found.distance);
+            self.improve(found);
         }
         if self.tie.is_some_and(|tie| found.distance <= self.best.distance + tie) {
             self.found.push(found);
         }
-        if !S::is_convex(piece, self.p) && S::size(piece) > SMALLEST * (1.0 + self.p.length()) {
+        let rounding = f64::EPSILON * self.p.length();
+        if !only && S::size(piece) > SMALLEST * self.shape.extent() + rounding {
             self.rest.push(Pending { bound, piece: piece.clone() });
         }
     }
@@ -131,10 +105,13 @@ impl<'a, S: Shape> Search<'a, S> {
     fn finish(&mut self) {
         for _ in 0..HALVINGS {
             let Some(next) = self.rest.pop() else { break };
-            if self.excludes(next.bound) {
+            if next.bound > self.reach_squared {
                 break;
             }
-            self.shape.halves(next.piece).iter().for_each(|half| self.visit(half));
+            for half in self.shape.halves(next.piece) {
+                let bound = S::bound(&S::hull(&half), self.p);
+                self.visit(&half, bound);
+            }
         }
     }
 
