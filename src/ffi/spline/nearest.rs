@@ -153,7 +153,7 @@ pub unsafe extern "C" fn bladesmith_surface_nearest(
             )
         };
         let inverter = surface.inverter()?;
-        places.fill(&points.iter().map(|&p| inverter.nearest(p)).collect::<Vec<_>>());
+        places.fill(&inverter.nearest_many(points));
         Ok(())
     })
 }
