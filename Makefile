@@ -3,6 +3,8 @@
 
 PYTHON ?= /usr/bin/python3
 PREFIX ?= /usr/local
+SECONDS ?= 60
+HOST = $(shell rustc -vV | sed -n 's/^host: //p')
 VERSION := $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' Cargo.toml | head -n 1)
 
 EXAMPLE := examples/compressor_blade
@@ -13,12 +15,13 @@ PYTHON_SOURCES := freecad_workbench freecad_workbench/bladesmith tests/python be
 
 export PYTHON DESTDIR
 
-.PHONY: help setup setup-run build test test-rust test-python awkward-files demo docs lint format bench dist install \
+.PHONY: help setup setup-run build test test-rust test-python fuzz awkward-files demo docs lint format bench dist install \
     uninstall clean
 
 help:
 	@echo "make demo     morph a compressor blade; leaves STEP, report and pictures in $(DEMO)"
 	@echo "make test     run every test"
+	@echo "make fuzz     call the kernel with arbitrary arguments for SECONDS (now $(SECONDS))"
 	@echo "make build    build the library (target/release)"
 	@echo "make install  install library and command below PREFIX (now $(PREFIX))"
 	@echo "make uninstall  remove what make install put below PREFIX"
@@ -43,6 +46,15 @@ test: setup build lint test-rust test-python
 
 test-rust: setup
 	cargo test --release --locked
+
+# Under the address sanitizer where a nightly compiler is installed.
+fuzz: setup
+	@if cargo +nightly --version >/dev/null 2>&1; then \
+	    set -- env RUSTFLAGS=-Zsanitizer=address cargo +nightly test --target $(HOST) --target-dir build/fuzz; \
+	else \
+	    set -- cargo test; \
+	fi; \
+	BLADESMITH_FUZZ_SECONDS=$(SECONDS) "$$@" --release --locked --test fuzz -- --nocapture
 
 awkward-files: setup
 	@cargo test --release --locked --quiet --test rooms p5_files >/dev/null

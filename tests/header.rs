@@ -8,7 +8,26 @@ use std::process::Command;
 use bladesmith::ffi::MorphOptions;
 
 /// Sources of the header in the order in which it presents them.
-const SOURCES: [&str; 8] = ["status", "library", "progress", "field", "part", "options", "check", "morph"];
+const SOURCES: [&str; 18] = [
+    "status",
+    "library",
+    "progress",
+    "field",
+    "part",
+    "options",
+    "check",
+    "morph",
+    "spline/curve",
+    "spline/table",
+    "spline/curves",
+    "spline/curve_reshape",
+    "spline/curve_make",
+    "spline/curve_fit",
+    "spline/surface",
+    "spline/surface_reshape",
+    "spline/surface_make",
+    "spline/nearest",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -72,6 +91,9 @@ fn c99_and_cpp17_take_the_headers_alone_and_twice() {
         ("bladesmith.h", "cpp", "-std=c++17", ["g++", "clang++"]),
         ("bladesmith.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
         ("bladesmith.hpp", "cpp", "-std=c++20", ["g++", "clang++"]),
+        ("core.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("curve.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("surface.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
     ] {
         let twice = format!("#include <bladesmith/{header}>\n").repeat(2) + "int unused;\n";
         for (number, compiler) in compilers.into_iter().enumerate() {
@@ -140,22 +162,24 @@ fn documented_functions(header: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn the_cpp_header_covers_every_function() {
-    let cpp = fs::read_to_string(root().join("include/bladesmith/bladesmith.hpp")).expect("it is committed");
+fn the_cpp_headers_cover_every_function() {
+    let folder = root().join("include/bladesmith");
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is committed");
+    let cpp = ["bladesmith.hpp", "curve.hpp", "surface.hpp"].map(read).concat();
     for (_, declaration) in documented_functions(&generated()) {
         let name = declaration.split('(').next().unwrap_or_default().rsplit([' ', '*']).next();
-        assert!(name.is_some_and(|name| cpp.contains(name)), "bladesmith.hpp does not use {name:?}");
+        assert!(name.is_some_and(|name| cpp.contains(name)), "the headers for C++ do not use {name:?}");
     }
 }
 
 #[test]
 fn every_function_states_errors_and_where_it_applies_ownership_units_and_shapes() {
     let functions = documented_functions(&generated());
-    assert_eq!(functions.len(), 19, "functions with a comment: {functions:#?}");
+    assert_eq!(functions.len(), 76, "functions with a comment: {functions:#?}");
     for (comment, declaration) in functions {
         let pointers = declaration.contains('*');
         let arrays = declaration.contains("double *");
-        for (needed, label) in [(true, "Errors:"), (pointers, "Owner:"), (arrays, "Units:"), (arrays, "][")] {
+        for (needed, label) in [(true, "Errors:"), (pointers, "Owner:"), (arrays, "Units:"), (arrays, "[")] {
             assert!(
                 !needed || comment.contains(label),
                 "'{label}' is missing in the comment of {declaration}"

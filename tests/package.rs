@@ -15,9 +15,11 @@ mod installed;
 use installed::{Build, configure, data, install, lossy, prefix, root, run, scratch, succeed, valgrind};
 
 /// Programs that check themselves.
-const CHECKS: [&str; 3] = ["abi_errors", "threads", "owners"];
-/// The examples.
+const CHECKS: [&str; 5] = ["abi_errors", "spline_errors", "threads", "owners", "splines"];
+/// The examples of a morph.
 const EXAMPLES: [&str; 2] = ["morph_c", "morph_cpp"];
+/// The examples of the kernel, in C and in C++: they take no arguments and print the same.
+const KERNEL: [&str; 2] = ["curves", "surfaces"];
 
 fn on_the_bar(command: &mut Command) -> &mut Command {
     command.arg(data("bar.brep")).arg(data("bar.frd.gz"))
@@ -50,6 +52,9 @@ fn programs_are_clean_under_the_address_sanitizer() {
     for program in EXAMPLES.iter().flat_map(|name| Build::Sanitized.programs(name)) {
         morph_bar(&mut Command::new(program), &folder);
     }
+    for program in KERNEL.iter().flat_map(|name| both_languages(Build::Sanitized, name)) {
+        succeed(&mut Command::new(program));
+    }
 }
 
 #[test]
@@ -60,6 +65,26 @@ fn programs_are_clean_under_valgrind() {
     }
     for [_, linked] in EXAMPLES.map(|name| Build::Plain.programs(name)) {
         morph_bar(&mut valgrind(&linked), &folder);
+    }
+    for [_, in_c, _, in_cpp] in KERNEL.map(|name| both_languages(Build::Plain, name)) {
+        succeed(&mut valgrind(&in_c));
+        succeed(&mut valgrind(&in_cpp));
+    }
+}
+
+/// An example in C and in C++, each with the library shared and static.
+fn both_languages(build: Build, name: &str) -> [PathBuf; 4] {
+    let [[a, b], [c, d]] = ["c", "cpp"].map(|language| build.programs(&format!("{name}_{language}")));
+    [a, b, c, d]
+}
+
+#[test]
+fn the_examples_of_the_kernel_print_the_same_in_c_and_cpp() {
+    for (name, expected) in [("curves", "length 75.256472 mm"), ("surfaces", "1/mm\nnearest (")] {
+        let said = both_languages(Build::Plain, name)
+            .map(|program| lossy(&succeed(&mut Command::new(program)).stdout));
+        assert!(said[0].contains(expected), "{name} says {}", said[0]);
+        assert!(said.iter().all(|text| *text == said[0]), "{said:#?}");
     }
 }
 
@@ -120,10 +145,13 @@ fn the_examples_say_what_is_wrong_at_once_and_leave_nothing_behind() {
 
 #[test]
 fn the_examples_are_short_and_build_as_they_stand() {
-    for (language, file) in [("c", "morph.c"), ("cpp", "morph.cpp")] {
+    for language in ["c", "cpp"] {
         let project = root().join("examples").join(language);
-        let source = fs::read_to_string(project.join(file)).expect("it is committed");
-        assert!(source.lines().count() < 100, "{file} has {} lines", source.lines().count());
+        for name in ["morph"].iter().chain(&KERNEL) {
+            let file = format!("{name}.{language}");
+            let source = fs::read_to_string(project.join(&file)).expect("it is committed");
+            assert!(source.lines().count() < 100, "{file} has {} lines", source.lines().count());
+        }
         let build = scratch(&format!("example-{language}"));
         succeed(&mut configure(&project, &build, prefix()));
         succeed(Command::new("cmake").arg("--build").arg(&build));

@@ -5,6 +5,9 @@
  * part (bladesmith_part_read) and a field (bladesmith_field_read), morph (bladesmith_morph), take
  * the new part and the report (bladesmith_morphed_part, bladesmith_morphed_report).
  *
+ * Below it, the kernel: NURBS curves and surfaces from and to arrays (bladesmith_curve_new,
+ * bladesmith_surface_new), in batches, with exact reshaping and global searches.
+ *
  * Units: mm unless a name or comment says otherwise; angles in degrees where a name ends in _deg.
  * Numbering: solids and faces from 1, in the order of Open CASCADE and FreeCAD.
  * Shapes: [n][3] is n times x y z in one array, last index fastest.
@@ -94,6 +97,43 @@ typedef enum {
 } bladesmith_status;
 
 /**
+ * How bladesmith_parameters() spaces parameters.
+ */
+typedef enum {
+    /**
+     * Equally.
+     */
+    BLADESMITH_SPACING_UNIFORM = 0,
+    /**
+     * By the distance of neighbours.
+     */
+    BLADESMITH_SPACING_CHORD = 1,
+    /**
+     * By the distance of neighbours to a power, usually 0.5.
+     */
+    BLADESMITH_SPACING_CENTRIPETAL = 2,
+    /**
+     * By the distance in the metric of the points' own scatter (Foley and Nielson 1989).
+     */
+    BLADESMITH_SPACING_AFFINE_CHORD = 3,
+    /**
+     * As that, widened where the points turn by a factor, usually 1.5.
+     */
+    BLADESMITH_SPACING_AFFINE_ANGLE = 4,
+} bladesmith_spacing;
+
+/**
+ * A NURBS curve in the plane or in space. Opaque and unchanging: any number of threads may use
+ * one handle at once. Its lengths are in the unit of its poles, mm by convention.
+ */
+typedef struct bladesmith_curve bladesmith_curve;
+
+/**
+ * Curves that a call made, as many as there are. Opaque and unchanging.
+ */
+typedef struct bladesmith_curves bladesmith_curves;
+
+/**
  * A displacement field on the nodes of an FE mesh. Opaque and unchanging: any number of threads
  * may use one handle at once. Lengths are in the unit of the file or the arrays it came from.
  */
@@ -110,6 +150,17 @@ typedef struct bladesmith_morphed bladesmith_morphed;
  * handle at once. Lengths are mm.
  */
 typedef struct bladesmith_part bladesmith_part;
+
+/**
+ * A NURBS surface in space. Opaque and unchanging: any number of threads may use one handle at
+ * once. Its lengths are in the unit of its poles, mm by convention.
+ */
+typedef struct bladesmith_surface bladesmith_surface;
+
+/**
+ * Rows of numbers that a call found, as many as there are. Opaque and unchanging.
+ */
+typedef struct bladesmith_table bladesmith_table;
 
 /**
  * Settings of a morph. Fill it with bladesmith_morph_options_init() and change what you need.
@@ -491,6 +542,883 @@ int32_t bladesmith_morphed_nodes(const bladesmith_morphed *morphed,
  * Errors: none.
  */
 void bladesmith_morphed_free(bladesmith_morphed *morphed);
+
+/**
+ * Makes a curve from arrays, which are copied.
+ *
+ * dimension: coordinates of a point, 2 or 3.
+ * degree: 1 to 25.
+ * knots: [knot_count] all knots, repeated by multiplicity, not decreasing. The domain runs from
+ * knots[degree] to knots[pole_count]; the ends need not be repeated (closed curves repeat poles).
+ * poles: [pole_count][dimension], where pole_count is knot_count - degree - 1.
+ * weights: [pole_count] positive weights, or NULL for a polynomial curve.
+ * Units: one length unit for all coordinates, mm by convention.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for arrays that make no curve.
+ */
+int32_t bladesmith_curve_new(uint32_t dimension,
+                             uint32_t degree,
+                             const double *knots,
+                             size_t knot_count,
+                             const double *poles,
+                             const double *weights,
+                             size_t pole_count,
+                             bladesmith_curve **out);
+
+/**
+ * Sizes of a curve. Any of the outputs may be NULL.
+ *
+ * dimension: 2 or 3.
+ * degree: 1 to 25.
+ * pole_count: number of poles; there are pole_count + degree + 1 knots.
+ * rational: 1 for a curve with weights, 0 for a polynomial one.
+ * Owner: the caller gives the places.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curve_size(const bladesmith_curve *curve,
+                              uint32_t *dimension,
+                              uint32_t *degree,
+                              size_t *pole_count,
+                              uint32_t *rational);
+
+/**
+ * Knots, poles and weights of a curve. Any of the arrays may be NULL.
+ *
+ * pole_count: as bladesmith_curve_size() tells it; anything else is refused.
+ * knots: [pole_count + degree + 1].
+ * poles: [pole_count][dimension].
+ * weights: [pole_count], all 1 for a polynomial curve.
+ * Units: those of the curve.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curve_data(const bladesmith_curve *curve,
+                              size_t pole_count,
+                              double *knots,
+                              double *poles,
+                              double *weights);
+
+/**
+ * Points and derivatives of a curve.
+ *
+ * t: [count] parameters, finite. Outside the domain the end spans are continued.
+ * order: highest derivative, 0 to 25.
+ * below: not 0: where a knot makes derivatives jump, those from smaller parameters; 0: those from
+ * larger ones (at the end of the domain there is one kind only).
+ * out: [count][order + 1][dimension] the point, then the first derivative, and so on.
+ * Units: mm, and mm per parameter to the power of the order.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curve_evaluate(const bladesmith_curve *curve,
+                                  const double *t,
+                                  size_t count,
+                                  uint32_t order,
+                                  uint32_t below,
+                                  double *out);
+
+/**
+ * Frames and curvatures of a curve. Any of the outputs may be NULL; where the curve stands still
+ * all are NaN.
+ *
+ * t: [count] parameters, finite.
+ * axes: [count][dimension][dimension] unit tangent, unit normal and, in space, unit binormal. In
+ * the plane the normal is to the left of the tangent; in space it points to the centre of
+ * curvature, and where the curve is straight it is any one.
+ * curvatures: [count], in the plane positive where the curve turns left, in space never negative.
+ * torsions: [count], 0 in the plane.
+ * Units: curvature and torsion 1/mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curve_frames(const bladesmith_curve *curve,
+                                const double *t,
+                                size_t count,
+                                double *axes,
+                                double *curvatures,
+                                double *torsions);
+
+/**
+ * Arc lengths from the start of the domain to parameters.
+ *
+ * tolerance: bound of the estimated error of the whole length, positive.
+ * t: [count] parameters, finite; those outside the domain are taken to its ends.
+ * out: [count] lengths.
+ * Units: mm.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for a tolerance that cannot be reached.
+ */
+int32_t bladesmith_curve_lengths(const bladesmith_curve *curve,
+                                 double tolerance,
+                                 const double *t,
+                                 size_t count,
+                                 double *out);
+
+/**
+ * Parameters at arc lengths from the start of the domain.
+ *
+ * tolerance: bound of the estimated error of the whole length, positive.
+ * lengths: [count] finite; those beyond the ends give the ends.
+ * out: [count] parameters.
+ * Units: mm.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for a tolerance that cannot be reached.
+ */
+int32_t bladesmith_curve_at_lengths(const bladesmith_curve *curve,
+                                    double tolerance,
+                                    const double *lengths,
+                                    size_t count,
+                                    double *out);
+
+/**
+ * Frees a curve; NULL is fine. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_curve_free(bladesmith_curve *curve);
+
+/**
+ * Numbers of rows and columns of a table.
+ *
+ * Owner: the caller gives the places.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_table_size(const bladesmith_table *table, size_t *rows, size_t *columns);
+
+/**
+ * The numbers of a table.
+ *
+ * rows: how many rows `out` has room for; fewer than bladesmith_table_size() tells are refused.
+ * out: [rows][columns]. What the columns are is told where the table comes from.
+ * Units: told there as well.
+ * Owner: the caller gives the array; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_BUFFER_TOO_SMALL.
+ */
+int32_t bladesmith_table_data(const bladesmith_table *table, size_t rows, double *out);
+
+/**
+ * Frees a table; NULL is fine. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_table_free(bladesmith_table *table);
+
+/**
+ * The Bézier segments of a curve, each over the span it came from.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_curves_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ */
+int32_t bladesmith_curve_bezier(const bladesmith_curve *curve, bladesmith_curves **out);
+
+/**
+ * The same curves with one degree, one domain (that of the first) and the same clamped knots, and
+ * with weights if one has them.
+ *
+ * curves: [count] curves of one dimension, at least one.
+ * Owner: `*out` is the caller's, for bladesmith_curves_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ */
+int32_t bladesmith_curves_compatible(const bladesmith_curve *const *curves,
+                                     size_t count,
+                                     bladesmith_curves **out);
+
+/**
+ * Number of curves.
+ *
+ * Owner: the caller gives the place.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curves_count(const bladesmith_curves *curves, size_t *count);
+
+/**
+ * One of the curves, as a handle of its own.
+ *
+ * index: from 0.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for an index that is not there.
+ */
+int32_t bladesmith_curves_get(const bladesmith_curves *curves,
+                              size_t index,
+                              bladesmith_curve **out);
+
+/**
+ * Frees the list; NULL is fine. Curves taken from it stay. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_curves_free(bladesmith_curves *curves);
+
+/**
+ * The same curve with knots inserted.
+ *
+ * knots: [count] in the inside of the domain, not decreasing; one that comes twice is inserted
+ * twice.
+ * Units: those of the parameter.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where a knot lies elsewhere or would
+ * stand more often than the degree.
+ */
+int32_t bladesmith_curve_refine(const bladesmith_curve *curve,
+                                const double *knots,
+                                size_t count,
+                                bladesmith_curve **out);
+
+/**
+ * The curve with a knot removed as often as the curve moves by no more than a tolerance in all.
+ * How often it was removed shows in the knots.
+ *
+ * t: the knot, exactly.
+ * times: how often it shall be removed, at most as often as it stands there.
+ * tolerance: not negative.
+ * moved: [1] is set to a bound of the movement; may be NULL.
+ * Units: tolerance and moved mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for a knot that does not stand
+ * there so often.
+ */
+int32_t bladesmith_curve_remove_knot(const bladesmith_curve *curve,
+                                     double t,
+                                     uint32_t times,
+                                     double tolerance,
+                                     double *moved,
+                                     bladesmith_curve **out);
+
+/**
+ * The same curve, clamped, with its degree raised.
+ *
+ * by: by how much; the new degree is at most 25.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE beyond the highest degree and for
+ * curves that jump.
+ */
+int32_t bladesmith_curve_elevate(const bladesmith_curve *curve,
+                                 uint32_t by,
+                                 bladesmith_curve **out);
+
+/**
+ * A curve of a degree lower by one that is, at equal parameters, no further away than a tolerance.
+ *
+ * tolerance: not negative.
+ * moved: [1] is set to a bound of the distance; may be NULL.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS where the tolerance cannot be met;
+ * BLADESMITH_STATUS_SPLINE for degree 1 and curves that jump.
+ */
+int32_t bladesmith_curve_reduce(const bladesmith_curve *curve,
+                                double tolerance,
+                                double *moved,
+                                bladesmith_curve **out);
+
+/**
+ * The part of a curve between two parameters, which keep their meaning; two parts split it.
+ *
+ * from, to: ascending, in the domain.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for an empty part or one outside.
+ */
+int32_t bladesmith_curve_part(const bladesmith_curve *curve,
+                              double from,
+                              double to,
+                              bladesmith_curve **out);
+
+/**
+ * The curve run backwards, over the same domain.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_curve_reverse(const bladesmith_curve *curve, bladesmith_curve **out);
+
+/**
+ * The same curve over another domain.
+ *
+ * from, to: ascending.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for an empty domain.
+ */
+int32_t bladesmith_curve_over(const bladesmith_curve *curve,
+                              double from,
+                              double to,
+                              bladesmith_curve **out);
+
+/**
+ * The same curve with end knots repeated degree + 1 times, as most programs want them.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where rounding leaves no such knots.
+ */
+int32_t bladesmith_curve_clamp(const bladesmith_curve *curve, bladesmith_curve **out);
+
+/**
+ * The image of a curve under an affine map, exactly.
+ *
+ * matrix: [3][4]: row by row, the last column a shift. A curve in the plane has z = 0.
+ * dimension: of the image, 2 or 3; 2 leaves its z out.
+ * Units: the shift as the poles.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where numbers overflow.
+ */
+int32_t bladesmith_curve_map(const bladesmith_curve *curve,
+                             const double *matrix,
+                             uint32_t dimension,
+                             bladesmith_curve **out);
+
+/**
+ * One curve, and behind it another, as one.
+ *
+ * next: a curve of the same dimension that starts where the first ends.
+ * gap: how far apart they may be there; they meet in the middle.
+ * smooth: 0: each keeps its parametrisation, that of next shifted; not 0: the speed of next is
+ * brought to that of curve, and the joint made as smooth as moving by no more than gap allows.
+ * Units: gap mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for ends further apart than gap;
+ * BLADESMITH_STATUS_NUMERICS where smooth curves stand still at the joint.
+ */
+int32_t bladesmith_curve_join(const bladesmith_curve *curve,
+                              const bladesmith_curve *next,
+                              double gap,
+                              uint32_t smooth,
+                              bladesmith_curve **out);
+
+/**
+ * The arc centre + x cos a + y sin a for angles a from one to another, exactly: of a circle where
+ * x and y are perpendicular and as long as the radius, else of the ellipse with these conjugate
+ * semi-diameters. Its domain is [0, 1].
+ *
+ * centre, x, y: [dimension] each, dimension 2 or 3.
+ * from, to: angles in rad; to less than from runs clockwise; at most a full turn.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for an empty sweep or more than a turn.
+ */
+int32_t bladesmith_curve_arc(uint32_t dimension,
+                             const double *centre,
+                             const double *x,
+                             const double *y,
+                             double from,
+                             double to,
+                             bladesmith_curve **out);
+
+/**
+ * The conic segment from start to end that is tangent there to the lines through a corner. Its
+ * domain is [0, 1].
+ *
+ * start, corner, end: [dimension] each, dimension 2 or 3.
+ * through: [dimension] a point inside their triangle that the segment passes, or NULL.
+ * weight: without such a point, the weight of the corner: below 1 an ellipse, 1 a parabola, above
+ * a hyperbola.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for a point outside the triangle;
+ * BLADESMITH_STATUS_SPLINE for a weight that is not positive.
+ */
+int32_t bladesmith_curve_conic(uint32_t dimension,
+                               const double *start,
+                               const double *corner,
+                               const double *end,
+                               const double *through,
+                               double weight,
+                               bladesmith_curve **out);
+
+/**
+ * Parameters for points that a curve shall pass, ascending from 0 to 1.
+ *
+ * dimension: 2 or 3.
+ * points: [count][dimension], at least two; neighbours may coincide with uniform spacing only.
+ * spacing: one of bladesmith_spacing.
+ * factor: the power of BLADESMITH_SPACING_CENTRIPETAL or the factor of
+ * BLADESMITH_SPACING_AFFINE_ANGLE, not negative; others ignore it.
+ * out: [count].
+ * Units: any length.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_parameters(uint32_t dimension,
+                              const double *points,
+                              size_t count,
+                              uint32_t spacing,
+                              double factor,
+                              double *out);
+
+/**
+ * The curve of a degree that passes points, or has derivatives, at parameters.
+ *
+ * dimension: 2 or 3.
+ * parameters: [count], in any order.
+ * orders: [count] what is given at each: 0 the point, 1 the first derivative, and so on up to the
+ * degree; NULL for points alone.
+ * values: [count][dimension].
+ * knots: [knot_count], as many as count + degree + 1; or NULL with a knot_count of 0 for clamped
+ * knots that are means of neighbouring parameters.
+ * Units: mm, and mm per parameter to the power of the order.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT for conditions that contradict or are too many or few;
+ * BLADESMITH_STATUS_SPLINE where they do not fit the knots (Schoenberg and Whitney);
+ * BLADESMITH_STATUS_NUMERICS where they do not determine a curve.
+ */
+int32_t bladesmith_curve_interpolate(uint32_t dimension,
+                                     uint32_t degree,
+                                     const double *parameters,
+                                     const uint32_t *orders,
+                                     const double *values,
+                                     size_t count,
+                                     const double *knots,
+                                     size_t knot_count,
+                                     bladesmith_curve **out);
+
+/**
+ * The curve over given knots with the least sum of weighted squared distances to points at their
+ * parameters, with given derivatives at its ends.
+ *
+ * dimension: 2 or 3.
+ * degree, knots: [knot_count] as in bladesmith_curve_new().
+ * parameters: [count] in the domain of the knots.
+ * points: [count][dimension].
+ * weights: [count] not negative, or NULL for 1 each.
+ * start, end: [start_count][dimension] and [end_count][dimension]: the point at the end of the
+ * domain, then the first derivative there, and so on; a count of 0 leaves the end free. They need
+ * clamped knots.
+ * Units: mm, and mm per parameter to the power of the order.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where points are too few for the
+ * knots, or badly placed (Schoenberg and Whitney).
+ */
+int32_t bladesmith_curve_fit(uint32_t dimension,
+                             uint32_t degree,
+                             const double *knots,
+                             size_t knot_count,
+                             const double *parameters,
+                             const double *points,
+                             const double *weights,
+                             size_t count,
+                             const double *start,
+                             size_t start_count,
+                             const double *end,
+                             size_t end_count,
+                             bladesmith_curve **out);
+
+/**
+ * The curve over given knots with the least sum of weighted squared distances to points, plus
+ * smoothing times the integral of its squared second derivative: for small values it comes near
+ * the points, for large ones near a straight line.
+ *
+ * dimension, degree, knots, parameters, points, weights: as in bladesmith_curve_fit(): [knot_count],
+ * [count], [count][dimension], [count].
+ * smoothing: above 0.
+ * Units: mm; smoothing the third power of the parameter's unit.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for less than two parameters.
+ */
+int32_t bladesmith_curve_smooth(uint32_t dimension,
+                                uint32_t degree,
+                                const double *knots,
+                                size_t knot_count,
+                                const double *parameters,
+                                const double *points,
+                                const double *weights,
+                                size_t count,
+                                double smoothing,
+                                bladesmith_curve **out);
+
+/**
+ * The smoothest curve over given knots whose weighted squared distances to points sum up to no
+ * more than a residual.
+ *
+ * dimension, degree, knots, parameters, points, weights: as in bladesmith_curve_fit(): [knot_count],
+ * [count], [count][dimension], [count].
+ * residual: not negative.
+ * smoothing: [1] is set to what bladesmith_curve_smooth() needs for the same curve; may be NULL.
+ * Units: residual mm^2.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS where the knots leave more than the
+ * residual, or for less than two parameters.
+ */
+int32_t bladesmith_curve_smooth_within(uint32_t dimension,
+                                       uint32_t degree,
+                                       const double *knots,
+                                       size_t knot_count,
+                                       const double *parameters,
+                                       const double *points,
+                                       const double *weights,
+                                       size_t count,
+                                       double residual,
+                                       double *smoothing,
+                                       bladesmith_curve **out);
+
+/**
+ * Makes a surface from arrays, which are copied.
+ *
+ * degree_u, degree_v: 1 to 25.
+ * knots_u, knots_v: [knot_count_u] and [knot_count_v] all knots along u and v, as in
+ * bladesmith_curve_new(); they ask for n = knot_count_u - degree_u - 1 rows of
+ * m = knot_count_v - degree_v - 1 poles.
+ * poles: [n][m][3], v fastest.
+ * weights: [n][m] positive weights, or NULL for a polynomial surface.
+ * pole_count: n * m.
+ * Units: one length unit for all coordinates, mm by convention.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for arrays that make no surface.
+ */
+int32_t bladesmith_surface_new(uint32_t degree_u,
+                               uint32_t degree_v,
+                               const double *knots_u,
+                               size_t knot_count_u,
+                               const double *knots_v,
+                               size_t knot_count_v,
+                               const double *poles,
+                               const double *weights,
+                               size_t pole_count,
+                               bladesmith_surface **out);
+
+/**
+ * Sizes of a surface. Any of the outputs may be NULL.
+ *
+ * degree_u, degree_v: 1 to 25.
+ * pole_count_u, pole_count_v: poles along u and v; there are as many knots and degree + 1 more.
+ * rational: 1 for a surface with weights, 0 for a polynomial one.
+ * Owner: the caller gives the places.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_size(const bladesmith_surface *surface,
+                                uint32_t *degree_u,
+                                uint32_t *degree_v,
+                                size_t *pole_count_u,
+                                size_t *pole_count_v,
+                                uint32_t *rational);
+
+/**
+ * Knots, poles and weights of a surface. Any of the arrays may be NULL.
+ *
+ * pole_count: all poles, n * m of bladesmith_surface_size(); anything else is refused.
+ * knots_u, knots_v: [n + degree_u + 1] and [m + degree_v + 1].
+ * poles: [n][m][3].
+ * weights: [n][m], all 1 for a polynomial surface.
+ * Units: those of the surface.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_data(const bladesmith_surface *surface,
+                                size_t pole_count,
+                                double *knots_u,
+                                double *knots_v,
+                                double *poles,
+                                double *weights);
+
+/**
+ * Points and derivatives of a surface.
+ *
+ * uv: [count][2] parameters, finite. Outside the domain the end spans are continued.
+ * order: highest total order of derivatives, 0 to 25.
+ * below_u, below_v: not 0: where a knot along this direction makes derivatives jump, those from
+ * smaller parameters; 0: those from larger ones.
+ * out: [count][(order + 1) * (order + 2) / 2][3]: S; S_u, S_v; S_uu, S_uv, S_vv; and so on.
+ * Units: mm, and mm per parameter to the power of the order.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_evaluate(const bladesmith_surface *surface,
+                                    const double *uv,
+                                    size_t count,
+                                    uint32_t order,
+                                    uint32_t below_u,
+                                    uint32_t below_v,
+                                    double *out);
+
+/**
+ * Normals and principal curvatures of a surface. Any of the outputs may be NULL; where the surface
+ * has no normal all are NaN.
+ *
+ * uv: [count][2] parameters, finite.
+ * normals: [count][3] unit normals along S_u x S_v.
+ * curvatures: [count][2] the smaller and the larger principal curvature, positive where the surface
+ * bends towards the normal.
+ * directions: [count][2][3] unit tangents along which they hold; at an umbilic any two.
+ * Units: curvatures 1/mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_curvatures(const bladesmith_surface *surface,
+                                      const double *uv,
+                                      size_t count,
+                                      double *normals,
+                                      double *curvatures,
+                                      double *directions);
+
+/**
+ * Frees a surface; NULL is fine. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_surface_free(bladesmith_surface *surface);
+
+/**
+ * The same surface with knots inserted along a direction, as bladesmith_curve_refine().
+ *
+ * direction: 0 for u, 1 for v.
+ * knots: [count] in the inside of the domain, not decreasing.
+ * Units: those of the parameter.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where a knot lies elsewhere or would
+ * stand more often than the degree.
+ */
+int32_t bladesmith_surface_refine(const bladesmith_surface *surface,
+                                  uint32_t direction,
+                                  const double *knots,
+                                  size_t count,
+                                  bladesmith_surface **out);
+
+/**
+ * The surface with a knot along a direction removed as often as the surface moves by no more than a
+ * tolerance in all, as bladesmith_curve_remove_knot().
+ *
+ * direction: 0 for u, 1 for v.
+ * t: the knot, exactly.
+ * times: how often it shall be removed, at most as often as it stands there.
+ * tolerance: not negative.
+ * moved: [1] is set to a bound of the movement; may be NULL.
+ * Units: tolerance and moved mm.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for a knot that does not stand
+ * there so often.
+ */
+int32_t bladesmith_surface_remove_knot(const bladesmith_surface *surface,
+                                       uint32_t direction,
+                                       double t,
+                                       uint32_t times,
+                                       double tolerance,
+                                       double *moved,
+                                       bladesmith_surface **out);
+
+/**
+ * The same surface, clamped, with its degree along a direction raised.
+ *
+ * direction: 0 for u, 1 for v.
+ * by: by how much; the new degree is at most 25.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE beyond the highest degree and for
+ * surfaces that jump.
+ */
+int32_t bladesmith_surface_elevate(const bladesmith_surface *surface,
+                                   uint32_t direction,
+                                   uint32_t by,
+                                   bladesmith_surface **out);
+
+/**
+ * A surface of a degree lower by one along a direction that is, at equal parameters, no further
+ * away than a tolerance.
+ *
+ * direction: 0 for u, 1 for v.
+ * tolerance: not negative.
+ * moved: [1] is set to a bound of the distance; may be NULL.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS where the tolerance cannot be met;
+ * BLADESMITH_STATUS_SPLINE for degree 1 and surfaces that jump.
+ */
+int32_t bladesmith_surface_reduce(const bladesmith_surface *surface,
+                                  uint32_t direction,
+                                  double tolerance,
+                                  double *moved,
+                                  bladesmith_surface **out);
+
+/**
+ * The part of a surface between two parameters along a direction; two parts split it.
+ *
+ * direction: 0 for u, 1 for v.
+ * from, to: ascending, in the domain.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for an empty part or one outside.
+ */
+int32_t bladesmith_surface_part(const bladesmith_surface *surface,
+                                uint32_t direction,
+                                double from,
+                                double to,
+                                bladesmith_surface **out);
+
+/**
+ * The surface run backwards along a direction, over the same domain.
+ *
+ * direction: 0 for u, 1 for v.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_reverse(const bladesmith_surface *surface,
+                                   uint32_t direction,
+                                   bladesmith_surface **out);
+
+/**
+ * The surface with u and v exchanged; its normal turns round.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_swap(const bladesmith_surface *surface, bladesmith_surface **out);
+
+/**
+ * The same surface with the end knots of both directions repeated degree + 1 times.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where rounding leaves no such knots.
+ */
+int32_t bladesmith_surface_clamp(const bladesmith_surface *surface, bladesmith_surface **out);
+
+/**
+ * The image of a surface under an affine map, exactly.
+ *
+ * matrix: [3][4]: row by row, the last column a shift.
+ * Units: the shift as the poles.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where numbers overflow.
+ */
+int32_t bladesmith_surface_map(const bladesmith_surface *surface,
+                               const double *matrix,
+                               bladesmith_surface **out);
+
+/**
+ * The curve along which the parameter of a direction stays the same, exactly; it runs over the
+ * other parameter.
+ *
+ * direction: 0 for constant u, 1 for constant v.
+ * t: that parameter, in the domain.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for a parameter outside.
+ */
+int32_t bladesmith_surface_isocurve(const bladesmith_surface *surface,
+                                    uint32_t direction,
+                                    double t,
+                                    bladesmith_curve **out);
+
+/**
+ * The surface of the lines between points of two curves at equal parameters: u runs along the
+ * curves, v in [0, 1] from the first to the second.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ */
+int32_t bladesmith_surface_ruled(const bladesmith_curve *first,
+                                 const bladesmith_curve *second,
+                                 bladesmith_surface **out);
+
+/**
+ * The surface that a curve sweeps when it turns about an axis, exactly: u runs along the curve, v
+ * in [0, 1] with the turn.
+ *
+ * origin, axis: [3] a point of the axis and its direction, of any length.
+ * angle: in rad, counterclockwise seen against the axis; at most a full turn either way.
+ * Units: origin mm.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_revolved(const bladesmith_curve *curve,
+                                    const double *origin,
+                                    const double *axis,
+                                    double angle,
+                                    bladesmith_surface **out);
+
+/**
+ * The bilinearly blended Coons patch between four polynomial curves that meet in four corners.
+ *
+ * curves: [4] along u at the start and the end of v, then along v at the start and the end of u.
+ * Domains are those of the first of each pair.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that do not meet or are
+ * rational.
+ */
+int32_t bladesmith_surface_coons(const bladesmith_curve *const *curves, bladesmith_surface **out);
+
+/**
+ * The surface through sections: u runs along them, v across.
+ *
+ * sections: [count] curves, more than degree.
+ * parameters: [count] ascending values of v at which the surface holds the sections.
+ * degree: along v.
+ * Units: those of the parameter.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE where weights are too uneven to be
+ * blended.
+ */
+int32_t bladesmith_surface_skin(const bladesmith_curve *const *sections,
+                                const double *parameters,
+                                size_t count,
+                                uint32_t degree,
+                                bladesmith_surface **out);
+
+/**
+ * The nearest point of a curve to each of many. The first call on a curve prepares it: later ones
+ * are faster. Any of the outputs may be NULL.
+ *
+ * points: [count][dimension], finite.
+ * t: [count] parameters.
+ * feet: [count][dimension] the nearest points.
+ * distances: [count].
+ * Units: mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ */
+int32_t bladesmith_curve_nearest(const bladesmith_curve *curve,
+                                 const double *points,
+                                 size_t count,
+                                 double *t,
+                                 double *feet,
+                                 double *distances);
+
+/**
+ * All points of a curve that are as near to a point as the nearest, nearest first; where a whole
+ * stretch is, some of its points.
+ *
+ * point: [dimension], finite.
+ * tie: by how much they may be further away, not negative.
+ * out: a table with the columns t, x, y, z (0 in the plane), distance.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ */
+int32_t bladesmith_curve_nearest_all(const bladesmith_curve *curve,
+                                     const double *point,
+                                     double tie,
+                                     bladesmith_table **out);
+
+/**
+ * The nearest point of a surface to each of many. The first call on a surface prepares it: later
+ * ones are faster. Any of the outputs may be NULL.
+ *
+ * points: [count][3], finite.
+ * uv: [count][2] parameters.
+ * feet: [count][3] the nearest points.
+ * distances: [count].
+ * Units: mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+ */
+int32_t bladesmith_surface_nearest(const bladesmith_surface *surface,
+                                   const double *points,
+                                   size_t count,
+                                   double *uv,
+                                   double *feet,
+                                   double *distances);
+
+/**
+ * All points of a surface that are as near to a point as the nearest, nearest first; where a whole
+ * curve or area is, some of its points.
+ *
+ * point: [3], finite.
+ * tie: by how much they may be further away, not negative.
+ * out: a table with the columns u, v, x, y, z, distance.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+ */
+int32_t bladesmith_surface_nearest_all(const bladesmith_surface *surface,
+                                       const double *point,
+                                       double tie,
+                                       bladesmith_table **out);
 
 #ifdef __cplusplus
 }  // extern "C"

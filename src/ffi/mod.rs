@@ -23,6 +23,7 @@ pub mod part;
 mod part_info;
 pub mod progress;
 mod slice;
+pub mod spline;
 pub mod status;
 mod text;
 

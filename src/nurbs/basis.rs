@@ -117,7 +117,8 @@ impl KnotVector {
             let start = self.flat[p];
             return self.flat.partition_point(|&k| k <= start) - 1;
         }
-        p + self.flat[p..=n + 1].partition_point(|&k| k <= u) - 1
+        // What is not a number gets the first span.
+        p + self.flat[p..=n + 1].partition_point(|&k| k <= u).max(1) - 1
     }
 
     /// The `degree + 1` basis functions that do not vanish on `span` (A2.2).

@@ -28,7 +28,7 @@ impl KnotVector {
             Side::Above => self.span(u),
             Side::Below => {
                 let before = flat[..=self.len()].partition_point(|&k| k < u);
-                if before <= p { self.span(u) } else { before - 1 }
+                if before <= p || before > self.len() { self.span(u) } else { before - 1 }
             }
         }
     }
@@ -111,7 +111,7 @@ impl NurbsSurface {
         let (nu, nv) = (ku.table(su, u, order), kv.table(sv, v, order));
         let weight = |i: usize| self.weights().map_or(1.0, |w| w[i]);
         let row = |i: usize| (su - ku.degree() + i) * kv.len() + sv - kv.degree();
-        let indices = || (0..=ku.degree()).flat_map(|i| row(i)..=row(i) + kv.degree());
+        let indices = || (0..ku.degree() + 1).flat_map(|i| row(i)..row(i) + kv.degree() + 1);
         let (origin, base) = origin(indices().map(|i| self.poles()[i]), indices().map(weight));
         let mut jet: Vec<_> = (0..=order).map(|k| vec![DVec3::ZERO; order + 1 - k]).collect();
         let mut w: Vec<_> = (0..=order).map(|k| vec![0.0; order + 1 - k]).collect();
@@ -180,6 +180,8 @@ mod tests {
             assert_eq!(c.derivatives_from(side, 0.0, 2), c.derivatives_to(0.0, 2));
             assert_eq!(c.derivatives_from(side, 3.0, 2), c.derivatives_to(3.0, 2));
             assert_eq!(c.derivatives_from(side, 0.7, 2), c.derivatives_to(0.7, 2));
+            assert_eq!(c.derivatives_from(side, -0.5, 2), c.derivatives_to(-0.5, 2));
+            assert_eq!(c.derivatives_from(side, 3.5, 2), c.derivatives_to(3.5, 2));
         }
     }
 

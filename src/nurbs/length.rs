@@ -15,6 +15,9 @@ pub(crate) const GAUSS: [(f64, f64); 5] = [
 /// Halvings of one span at most.
 const DEPTH: usize = 40;
 
+/// Pieces of a curve at most: smooth ones take a few a span, cusps some dozens.
+const PIECES: usize = 1 << 16;
+
 /// A curve with the length up to each of its breaks, for going back and forth between parameter
 /// and length.
 #[derive(Debug, Clone)]
@@ -30,7 +33,8 @@ impl<'a, P: Point> ArcLength<'a, P> {
     /// error, and no smaller than rounding allows.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a tolerance that is not positive.
+    /// [`Error::Argument`] for a tolerance that is not positive; [`Error::Numerics`] for one that
+    /// cannot be reached, and where the length overflows.
     pub fn new(curve: &'a NurbsCurve<P>, tolerance: f64) -> Result<Self> {
         if tolerance.is_nan() || tolerance <= 0.0 {
             let why = format!("a positive length in mm was expected, not {tolerance}");
@@ -42,6 +46,14 @@ impl<'a, P: Point> ArcLength<'a, P> {
         let measured = ArcLength { curve, tolerance, marks: Vec::new() };
         for w in breaks.windows(2) {
             measured.mark(w[0], w[1], tolerance * (w[1] - w[0]) / (b - a), DEPTH, &mut marks);
+        }
+        let total = marks[marks.len() - 1].1;
+        if marks.len() > PIECES || !total.is_finite() {
+            let why = format!(
+                "the length, about {total} mm, cannot be measured to {tolerance:e} mm with {PIECES} pieces: \
+                 give a larger tolerance"
+            );
+            return Err(Error::Numerics { why });
         }
         Ok(Self { marks, ..measured })
     }
@@ -106,7 +118,8 @@ impl<'a, P: Point> ArcLength<'a, P> {
         let middle = 0.5 * (a + b);
         let (whole, first, second) = (self.gauss(a, b), self.gauss(a, middle), self.gauss(middle, b));
         let error = (first + second - whole).abs();
-        if depth == 0 || error <= tolerance.max(8.0 * f64::EPSILON * whole) {
+        let done = error <= tolerance.max(8.0 * f64::EPSILON * whole);
+        if depth == 0 || done || error.is_nan() || marks.len() > PIECES {
             let before = marks[marks.len() - 1].1;
             marks.extend([(middle, before + first), (b, before + first + second)]);
         } else {
@@ -173,5 +186,12 @@ mod tests {
     #[test]
     fn a_tolerance_must_be_positive() {
         assert!(matches!(quarter().length(0.0), Err(Error::Argument { .. })));
+    }
+
+    #[test]
+    fn a_length_that_overflows_is_refused() {
+        let poles = vec![DVec2::ZERO, DVec2::splat(1e300), DVec2::splat(-1e300)];
+        let curve = NurbsCurve::new(KnotVector::clamped(2, &[0.0, 1e-20]).unwrap(), poles, None).unwrap();
+        assert!(matches!(curve.length(1e-9), Err(Error::Numerics { .. })));
     }
 }

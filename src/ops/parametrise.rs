@@ -63,6 +63,9 @@ pub fn parameters<P: Point>(points: &[P], spacing: Spacing) -> Result<Vec<f64>> 
 /// [`KnotVector::new`].
 pub fn averaged_knots(degree: usize, parameters: &[f64]) -> Result<KnotVector> {
     let n = parameters.len();
+    if degree == 0 {
+        return Err(Error::Spline { why: "degree 0: a curve has at least degree 1".into() });
+    }
     if n <= degree {
         let why =
             format!("{n} conditions are too few for degree {degree}: at least {} are needed", degree + 1);

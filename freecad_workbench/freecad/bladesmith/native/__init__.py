@@ -4,6 +4,7 @@ FreeCAD must be imported before numpy, so this room imports numpy only where arr
 """
 
 from .api import Field, Morphed, Part, check, library_version
+from .curves import SPACINGS, Curve, compatible, parameters
 from .errors import (
     ArgumentError,
     BladesmithError,
@@ -14,11 +15,13 @@ from .errors import (
     NumericsError,
     SetupError,
 )
+from .surfaces import Surface
 
 __all__ = [
     "ArgumentError",
     "BladesmithError",
     "Cancelled",
+    "Curve",
     "DesignRuleError",
     "Field",
     "InputError",
@@ -26,7 +29,11 @@ __all__ = [
     "Morphed",
     "NumericsError",
     "Part",
+    "SPACINGS",
     "SetupError",
+    "Surface",
     "check",
+    "compatible",
     "library_version",
+    "parameters",
 ]

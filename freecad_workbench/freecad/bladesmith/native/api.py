@@ -23,6 +23,7 @@ from ctypes import (
 from typing import Callable, Optional
 
 from .. import log
+from . import spline_calls
 from .errors import Cancelled, from_status
 from .finder import load
 
@@ -102,6 +103,7 @@ STATUS_CALLS = {
         c_void_p,
         POINTER(c_size_t),
     ),
+    **spline_calls.STATUS_CALLS,
 }
 """Argument types of the calls that return a status."""
 
@@ -113,6 +115,7 @@ OTHER_CALLS = {
     "bladesmith_part_free": (None, (c_void_p,)),
     "bladesmith_morph_options_init": (None, (POINTER(MorphOptions), c_size_t)),
     "bladesmith_morphed_free": (None, (c_void_p,)),
+    **spline_calls.OTHER_CALLS,
 }
 """Result and argument types of the other calls."""
 

@@ -1,0 +1,104 @@
+"""Numpy arrays on their way into and out of the core, and what its splines share.
+
+Arrays that are already double and contiguous are passed as they lie in memory, without a copy.
+"""
+
+import ctypes
+from ctypes import byref, c_size_t, c_void_p
+
+from .api import _Handle
+
+
+def rows(values, width: int, name: str):
+    """``values`` as (n, width) doubles."""
+    import numpy
+
+    array = numpy.ascontiguousarray(values, dtype=float)
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{name} must have the shape (n, {width}), not {array.shape}")
+    return array
+
+
+def row(values, width: int, name: str):
+    """``values`` as (width,) doubles."""
+    import numpy
+
+    array = numpy.ascontiguousarray(values, dtype=float)
+    if array.shape != (width,):
+        raise ValueError(f"{name} must have the shape ({width},), not {array.shape}")
+    return array
+
+
+def line(values, name: str, count=None):
+    """``values`` as (n,) doubles; a single number is an array of one."""
+    import numpy
+
+    array = numpy.atleast_1d(numpy.ascontiguousarray(values, dtype=float))
+    if array.ndim != 1 or count not in (None, len(array)):
+        expected = "n" if count is None else count
+        raise ValueError(f"{name} must have the shape ({expected},), not {array.shape}")
+    return array
+
+
+def matrix(values):
+    """An affine map as (3, 4) doubles: its linear part and, in the last column, its shift."""
+    import numpy
+
+    array = numpy.ascontiguousarray(values, dtype=float)
+    if array.shape != (3, 4):
+        raise ValueError(f"matrix must have the shape (3, 4), not {array.shape}")
+    return array
+
+
+def address(array):
+    """Where an array begins; None stands for NULL."""
+    return None if array is None else array.ctypes.data
+
+
+def handles(splines):
+    """The handles of several curves as an array of C; ``splines`` must outlive its use."""
+    return (c_void_p * len(splines))(*(spline._handle.value for spline in splines))
+
+
+class Spline(_Handle):
+    """What curves and surfaces share."""
+
+    _noun = ""
+
+    @classmethod
+    def _made(cls, verb: str, *arguments):
+        """What the call of this noun with ``verb`` makes."""
+        made = cls.__new__(cls)
+        _Handle.__init__(made)
+        made._call(verb, *arguments, byref(made._handle))
+        return made
+
+    def _call(self, verb: str, *arguments):
+        getattr(self._core, f"bladesmith_{self._noun}_{verb}")(*arguments)
+
+    def _changed(self, verb: str, *arguments):
+        """What the call makes of this spline."""
+        return self._made(verb, self._handle, *arguments)
+
+    def _changed_within(self, verb: str, *arguments):
+        """What the call makes of this spline, and by how much it moved at most."""
+        moved = ctypes.c_double()
+        return self._changed(verb, *arguments, byref(moved)), moved.value
+
+
+class _Table(Spline):
+    _free = "bladesmith_table_free"
+    _noun = "table"
+
+
+def table(verb: str, noun: str, *arguments):
+    """The (n, columns) array that a call returns as a table."""
+    import numpy
+
+    found = _Table()
+    getattr(found._core, f"bladesmith_{noun}_{verb}")(*arguments, byref(found._handle))
+    size = c_size_t(), c_size_t()
+    found._call("size", found._handle, *map(byref, size))
+    out = numpy.empty((size[0].value, size[1].value))
+    found._call("data", found._handle, len(out), out.ctypes.data)
+    return out

@@ -1,0 +1,545 @@
+//! Every call of the kernel with arbitrary arguments. Arrays are as long as the header asks for:
+//! all else about them is arbitrary.
+
+use super::source::Source;
+use bladesmith::ffi::library::bladesmith_last_error;
+use bladesmith::ffi::spline::curve::*;
+use bladesmith::ffi::spline::curve_fit::*;
+use bladesmith::ffi::spline::curve_make::*;
+use bladesmith::ffi::spline::curve_reshape::*;
+use bladesmith::ffi::spline::curves::*;
+use bladesmith::ffi::spline::nearest::*;
+use bladesmith::ffi::spline::surface::*;
+use bladesmith::ffi::spline::surface_make::*;
+use bladesmith::ffi::spline::surface_reshape::*;
+use bladesmith::ffi::spline::table::*;
+use bladesmith::ffi::spline::{Curve, Curves, Surface, Table};
+use std::ffi::CStr;
+use std::ptr::{null, null_mut};
+
+/// A name and its call, which returns the status.
+pub type Call = (&'static str, fn(&mut Source, &mut Pool) -> i32);
+
+/// Handles that calls have made, for others to use.
+#[derive(Default)]
+pub struct Pool {
+    curves: Vec<*mut Curve>,
+    surfaces: Vec<*mut Surface>,
+}
+
+/// Handles of each kind that are kept.
+const KEPT: usize = 24;
+
+impl Pool {
+    fn curve(&self, source: &mut Source) -> *const Curve {
+        if self.curves.is_empty() || source.once_in(200) {
+            return null();
+        }
+        self.curves[source.below(self.curves.len())]
+    }
+
+    fn surface(&self, source: &mut Source) -> *const Surface {
+        if self.surfaces.is_empty() || source.once_in(200) {
+            return null();
+        }
+        self.surfaces[source.below(self.surfaces.len())]
+    }
+
+    fn keep_curve(&mut self, source: &mut Source, curve: *mut Curve) {
+        if curve.is_null() {
+            return;
+        }
+        if self.curves.len() < KEPT && curve_size(curve).2 < 60 {
+            return self.curves.push(curve);
+        }
+        let hit = source.below(self.curves.len().max(1)).min(self.curves.len().saturating_sub(1));
+        let dropped = match self.curves.get_mut(hit) {
+            Some(place) if curve_size(curve).2 < 60 => std::mem::replace(place, curve),
+            _ => curve,
+        };
+        // SAFETY: the handle is in no list any more.
+        unsafe { bladesmith_curve_free(dropped) };
+    }
+
+    fn keep_surface(&mut self, source: &mut Source, surface: *mut Surface) {
+        if surface.is_null() {
+            return;
+        }
+        let small = surface_size(surface).1 < 400;
+        if self.surfaces.len() < KEPT && small {
+            return self.surfaces.push(surface);
+        }
+        let hit = source.below(self.surfaces.len().max(1)).min(self.surfaces.len().saturating_sub(1));
+        let dropped = match self.surfaces.get_mut(hit) {
+            Some(place) if small => std::mem::replace(place, surface),
+            _ => surface,
+        };
+        // SAFETY: the handle is in no list any more.
+        unsafe { bladesmith_surface_free(dropped) };
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        // SAFETY: the handles are this pool's and not used any more.
+        unsafe {
+            self.curves.iter().for_each(|&curve| bladesmith_curve_free(curve));
+            self.surfaces.iter().for_each(|&surface| bladesmith_surface_free(surface));
+        }
+    }
+}
+
+/// What the last call said.
+pub fn last_error() -> String {
+    // SAFETY: the text is copied before this thread makes another call.
+    unsafe { CStr::from_ptr(bladesmith_last_error()) }.to_string_lossy().into_owned()
+}
+
+/// Dimension, degree and number of poles.
+fn curve_size(curve: *const Curve) -> (usize, usize, usize) {
+    let (mut dimension, mut degree, mut count) = (3, 1, 1);
+    // SAFETY: the handle is alive or NULL.
+    unsafe { bladesmith_curve_size(curve, &mut dimension, &mut degree, &mut count, null_mut()) };
+    (dimension as usize, degree as usize, count)
+}
+
+/// Degrees and the number of poles.
+fn surface_size(surface: *const Surface) -> ([u32; 2], usize, [usize; 2]) {
+    let (mut p, mut q, mut n, mut m) = (1, 1, 1, 1);
+    // SAFETY: the handle is alive or NULL.
+    unsafe { bladesmith_surface_size(surface, &mut p, &mut q, &mut n, &mut m, null_mut()) };
+    ([p, q], n * m, [n, m])
+}
+
+fn pointer<T>(values: &Option<Vec<T>>) -> *const T {
+    values.as_ref().map_or(null(), |values| values.as_ptr())
+}
+
+/// An array to write to, filled with what must not be read.
+fn room(count: usize) -> Vec<f64> {
+    vec![f64::NAN; count]
+}
+
+/// A parameter of a curve or near it: a knot as often as not.
+fn parameter(source: &mut Source, knots: &[f64]) -> f64 {
+    match source.below(6) {
+        0..=2 if !knots.is_empty() => knots[source.below(knots.len())],
+        3 => source.number(),
+        _ => {
+            let (a, b) = (knots.first().unwrap_or(&0.0), knots.last().unwrap_or(&1.0));
+            a + (b - a) * (1.1 * source.unit() - 0.05)
+        }
+    }
+}
+
+fn parameters_of(source: &mut Source, knots: &[f64], count: usize) -> Vec<f64> {
+    (0..count).map(|_| parameter(source, knots)).collect()
+}
+
+fn knots_of(curve: *const Curve) -> Vec<f64> {
+    let (_, degree, count) = curve_size(curve);
+    let mut knots = room(count + degree + 1);
+    // SAFETY: the array is as long as the header asks for.
+    unsafe { bladesmith_curve_data(curve, count, knots.as_mut_ptr(), null_mut(), null_mut()) };
+    knots
+}
+
+fn knots_along(surface: *const Surface, direction: u32) -> Vec<f64> {
+    let ([p, q], count, [n, m]) = surface_size(surface);
+    let (mut u, mut v) = (room(n + p as usize + 1), room(m + q as usize + 1));
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe {
+        bladesmith_surface_data(surface, count, u.as_mut_ptr(), v.as_mut_ptr(), null_mut(), null_mut())
+    };
+    if direction == 0 { u } else { v }
+}
+
+/// A tolerance of usual size.
+fn tolerance(source: &mut Source) -> f64 {
+    if source.once_in(8) { source.number() } else { 10f64.powi(-(source.below(12) as i32)) }
+}
+
+fn make_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (dimension, degree) = (source.dimension(), source.degree());
+    let knots = source.knots(degree);
+    let count = knots.len().saturating_sub(degree.min(30) as usize + 1);
+    let (poles, weights) = (source.numbers(3 * count), source.weights(count));
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as announced.
+    let status = unsafe {
+        let (knots, known) = (knots.as_ptr(), knots.len());
+        bladesmith_curve_new(
+            dimension,
+            degree,
+            knots,
+            known,
+            poles.as_ptr(),
+            pointer(&weights),
+            count,
+            &mut out,
+        )
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn evaluate_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let curve = pool.curve(source);
+    let (t, order) = (parameters_of(source, &knots_of(curve), 9), source.small());
+    let mut out = room(9 * (order.min(30) as usize + 1) * 3);
+    let (t, out) = (t.as_ptr(), out.as_mut_ptr());
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe { bladesmith_curve_evaluate(curve, t, 9, order, source.small(), out) }
+}
+
+fn frames_of_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let curve = pool.curve(source);
+    let t = parameters_of(source, &knots_of(curve), 5);
+    let (mut axes, mut curvatures, mut torsions) = (room(45), room(5), room(5));
+    let (axes, curvatures, torsions) = (axes.as_mut_ptr(), curvatures.as_mut_ptr(), torsions.as_mut_ptr());
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe { bladesmith_curve_frames(curve, t.as_ptr(), 5, axes, curvatures, torsions) }
+}
+
+fn lengths_of_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (curve, tolerance) = (pool.curve(source), tolerance(source));
+    let values = parameters_of(source, &knots_of(curve), 4);
+    let call = if source.once_in(2) { bladesmith_curve_lengths } else { bladesmith_curve_at_lengths };
+    let mut out = room(4);
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe { call(curve, tolerance, values.as_ptr(), 4, out.as_mut_ptr()) }
+}
+
+fn reshape_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let curve = pool.curve(source);
+    let knots = knots_of(curve);
+    let mut t = parameters_of(source, &knots, 2);
+    if !source.once_in(5) {
+        t.sort_by(f64::total_cmp);
+    }
+    let (matrix, within) = (source.numbers(12), tolerance(source));
+    let (mut moved, mut out) = (f64::NAN, null_mut());
+    let place = if source.once_in(4) { null_mut() } else { &raw mut moved };
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        match source.below(9) {
+            0 => bladesmith_curve_refine(curve, t.as_ptr(), t.len(), &mut out),
+            1 => bladesmith_curve_remove_knot(curve, t[0], source.small(), within, place, &mut out),
+            2 => bladesmith_curve_elevate(curve, source.small(), &mut out),
+            3 => bladesmith_curve_reduce(curve, within, place, &mut out),
+            4 => bladesmith_curve_part(curve, t[0], t[1], &mut out),
+            5 => bladesmith_curve_reverse(curve, &mut out),
+            6 => bladesmith_curve_over(curve, t[0], t[1], &mut out),
+            7 => bladesmith_curve_clamp(curve, &mut out),
+            _ => bladesmith_curve_map(curve, matrix.as_ptr(), source.dimension(), &mut out),
+        }
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn join_curves(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (first, next) = (pool.curve(source), pool.curve(source));
+    let gap = if source.once_in(2) { 100.0 } else { tolerance(source) };
+    let mut out = null_mut();
+    // SAFETY: the handles are alive or NULL.
+    let status = unsafe { bladesmith_curve_join(first, next, gap, source.small(), &mut out) };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn list_curves(source: &mut Source, pool: &mut Pool) -> i32 {
+    let handles: Vec<_> = (0..source.below(4)).map(|_| pool.curve(source)).collect();
+    let (mut list, mut count): (*mut Curves, usize) = (null_mut(), 0);
+    // SAFETY: the handles are alive or NULL.
+    let status = unsafe {
+        if source.once_in(2) {
+            bladesmith_curve_bezier(pool.curve(source), &mut list)
+        } else {
+            bladesmith_curves_compatible(handles.as_ptr(), handles.len(), &mut list)
+        }
+    };
+    if list.is_null() {
+        return status;
+    }
+    let mut out = null_mut();
+    // SAFETY: the list is alive, and not used any more.
+    unsafe {
+        bladesmith_curves_count(list, &mut count);
+        bladesmith_curves_get(list, source.below(count + 1), &mut out);
+        bladesmith_curves_free(list);
+    }
+    pool.keep_curve(source, out);
+    status
+}
+
+fn conics(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (points, dimension) = (source.numbers(12), source.dimension());
+    let at = |i: usize| points[3 * i..].as_ptr();
+    let through = if source.once_in(2) { null() } else { at(3) };
+    let (from, to) = (source.number(), source.number());
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        if source.once_in(2) {
+            bladesmith_curve_arc(dimension, at(0), at(1), at(2), from, to, &mut out)
+        } else {
+            bladesmith_curve_conic(dimension, at(0), at(1), at(2), through, from, &mut out)
+        }
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn parameters_of_points(source: &mut Source, _: &mut Pool) -> i32 {
+    let (count, dimension) = (source.below(9), source.dimension());
+    let points = source.numbers(3 * count);
+    let mut out = room(count);
+    let (spacing, factor) = (source.small(), source.number());
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe { bladesmith_parameters(dimension, points.as_ptr(), count, spacing, factor, out.as_mut_ptr()) }
+}
+
+fn interpolate(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (dimension, degree, count) = (source.dimension(), source.degree(), source.below(12));
+    let knots = source.once_in(3).then(|| source.knots(degree));
+    let near = source.knots(1);
+    let mut t = parameters_of(source, knots.as_ref().unwrap_or(&near), count);
+    if source.once_in(2) {
+        t.sort_by(f64::total_cmp);
+    }
+    let orders: Option<Vec<u32>> =
+        source.once_in(2).then(|| (0..count).map(|_| source.small() / 2).collect());
+    let values = source.numbers(3 * count);
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        let (t, orders, values) = (t.as_ptr(), pointer(&orders), values.as_ptr());
+        let known = knots.as_ref().map_or(0, Vec::len);
+        bladesmith_curve_interpolate(
+            dimension,
+            degree,
+            t,
+            orders,
+            values,
+            count,
+            pointer(&knots),
+            known,
+            &mut out,
+        )
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn fit(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (dimension, degree, count) = (source.dimension(), source.degree(), source.below(30));
+    let knots = source.knots(degree);
+    let t = parameters_of(source, &knots, count);
+    let (points, weights) = (source.numbers(3 * count), source.weights(count));
+    let (start, end) = (source.numbers(9), source.numbers(9));
+    let (at_start, at_end) = (source.below(4), source.below(4));
+    let (mut smoothing, mut out) = (f64::NAN, null_mut());
+    let (flat, known, t, points, given) =
+        (knots.as_ptr(), knots.len(), t.as_ptr(), points.as_ptr(), pointer(&weights));
+    let amount = tolerance(source);
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        match source.below(3) {
+            0 => {
+                let (start, end) = (start.as_ptr(), end.as_ptr());
+                let (d, p, k) = (dimension, degree, known);
+                bladesmith_curve_fit(
+                    d, p, flat, k, t, points, given, count, start, at_start, end, at_end, &mut out,
+                )
+            }
+            1 => bladesmith_curve_smooth(
+                dimension, degree, flat, known, t, points, given, count, amount, &mut out,
+            ),
+            _ => bladesmith_curve_smooth_within(
+                dimension,
+                degree,
+                flat,
+                known,
+                t,
+                points,
+                given,
+                count,
+                amount,
+                &mut smoothing,
+                &mut out,
+            ),
+        }
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
+fn nearest_on_curve(source: &mut Source, pool: &mut Pool) -> i32 {
+    let curve = pool.curve(source);
+    let points = source.numbers(9);
+    let (mut t, mut feet, mut distances) = (room(3), room(9), room(3));
+    let tie = tolerance(source);
+    let mut table = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        if source.once_in(3) {
+            bladesmith_curve_nearest_all(curve, points.as_ptr(), tie, &mut table)
+        } else {
+            let (t, feet, distances) = (t.as_mut_ptr(), feet.as_mut_ptr(), distances.as_mut_ptr());
+            bladesmith_curve_nearest(curve, points.as_ptr(), 3, t, feet, distances)
+        }
+    };
+    read_table(table);
+    status
+}
+
+/// Reads all rows of a table and frees it.
+fn read_table(table: *mut Table) {
+    if table.is_null() {
+        return;
+    }
+    let (mut rows, mut columns) = (0, 0);
+    // SAFETY: the table is alive, not used any more, and the array has room for it.
+    unsafe {
+        bladesmith_table_size(table, &mut rows, &mut columns);
+        bladesmith_table_data(table, rows, room(rows * columns).as_mut_ptr());
+        bladesmith_table_free(table);
+    }
+}
+
+fn make_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (p, q) = (source.degree(), source.degree());
+    let (u, v) = (source.knots(p), source.knots(q));
+    let along = |knots: &[f64], degree: u32| knots.len().saturating_sub(degree.min(30) as usize + 1);
+    let count = along(&u, p) * along(&v, q);
+    let (poles, weights) = (source.numbers(3 * count), source.weights(count));
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as announced.
+    let status = unsafe {
+        let (ku, nu, kv, nv, poles) = (u.as_ptr(), u.len(), v.as_ptr(), v.len(), poles.as_ptr());
+        bladesmith_surface_new(p, q, ku, nu, kv, nv, poles, pointer(&weights), count, &mut out)
+    };
+    pool.keep_surface(source, out);
+    status
+}
+
+/// Pairs of parameters of a surface or near it.
+fn pairs_of(source: &mut Source, surface: *const Surface, count: usize) -> Vec<f64> {
+    let knots = [knots_along(surface, 0), knots_along(surface, 1)];
+    (0..2 * count).map(|i| parameter(source, &knots[i % 2])).collect()
+}
+
+fn evaluate_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (surface, order) = (pool.surface(source), source.small());
+    let uv = pairs_of(source, surface, 7);
+    let each = (order.min(30) as usize + 1) * (order.min(30) as usize + 2) / 2;
+    let mut out = room(7 * each * 3);
+    let (mut normals, mut curvatures, mut directions) = (room(21), room(14), room(42));
+    let (uv, out) = (uv.as_ptr(), out.as_mut_ptr());
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe {
+        if source.once_in(4) {
+            let (k, d) = (curvatures.as_mut_ptr(), directions.as_mut_ptr());
+            bladesmith_surface_curvatures(surface, uv, 7, normals.as_mut_ptr(), k, d)
+        } else {
+            bladesmith_surface_evaluate(surface, uv, 7, order, source.small(), source.small(), out)
+        }
+    }
+}
+
+fn reshape_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let surface = pool.surface(source);
+    let direction = if source.once_in(60) { source.small() } else { source.below(2) as u32 };
+    let mut t = parameters_of(source, &knots_along(surface, direction), 2);
+    if !source.once_in(5) {
+        t.sort_by(f64::total_cmp);
+    }
+    let (matrix, within, few) = (source.numbers(12), tolerance(source), source.small());
+    let (mut moved, mut out, mut curve) = (f64::NAN, null_mut(), null_mut());
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        match source.below(10) {
+            0 => bladesmith_surface_refine(surface, direction, t.as_ptr(), t.len(), &mut out),
+            1 => bladesmith_surface_remove_knot(surface, direction, t[0], few, within, &mut moved, &mut out),
+            2 => bladesmith_surface_elevate(surface, direction, few, &mut out),
+            3 => bladesmith_surface_reduce(surface, direction, within, &mut moved, &mut out),
+            4 => bladesmith_surface_part(surface, direction, t[0], t[1], &mut out),
+            5 => bladesmith_surface_reverse(surface, direction, &mut out),
+            6 => bladesmith_surface_swap(surface, &mut out),
+            7 => bladesmith_surface_clamp(surface, &mut out),
+            8 => bladesmith_surface_map(surface, matrix.as_ptr(), &mut out),
+            _ => bladesmith_surface_isocurve(surface, direction, t[0], &mut curve),
+        }
+    };
+    pool.keep_surface(source, out);
+    pool.keep_curve(source, curve);
+    status
+}
+
+fn surfaces_of_curves(source: &mut Source, pool: &mut Pool) -> i32 {
+    let curves: Vec<_> = (0..4).map(|_| pool.curve(source)).collect();
+    let numbers = source.numbers(6);
+    let mut t = source.numbers(4);
+    t.sort_by(f64::total_cmp);
+    let (count, degree, angle) = (source.below(5), source.small(), source.number());
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        match source.below(4) {
+            0 => bladesmith_surface_ruled(curves[0], curves[1], &mut out),
+            1 => bladesmith_surface_revolved(
+                curves[0],
+                numbers.as_ptr(),
+                numbers[3..].as_ptr(),
+                angle,
+                &mut out,
+            ),
+            2 => bladesmith_surface_coons(curves.as_ptr(), &mut out),
+            _ => bladesmith_surface_skin(curves.as_ptr(), t.as_ptr(), count, degree, &mut out),
+        }
+    };
+    pool.keep_surface(source, out);
+    status
+}
+
+fn nearest_on_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (surface, points, tie) = (pool.surface(source), source.numbers(6), tolerance(source));
+    let (mut uv, mut feet, mut distances) = (room(4), room(6), room(2));
+    let mut table = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        if source.once_in(3) {
+            bladesmith_surface_nearest_all(surface, points.as_ptr(), tie, &mut table)
+        } else {
+            let (uv, feet, distances) = (uv.as_mut_ptr(), feet.as_mut_ptr(), distances.as_mut_ptr());
+            bladesmith_surface_nearest(surface, points.as_ptr(), 2, uv, feet, distances)
+        }
+    };
+    read_table(table);
+    status
+}
+
+/// All of them; those that make handles come more often.
+pub const CALLS: [Call; 20] = [
+    ("curve_new", make_curve),
+    ("curve_new", make_curve),
+    ("curve_evaluate", evaluate_curve),
+    ("curve_frames", frames_of_curve),
+    ("curve_lengths", lengths_of_curve),
+    ("curve_* that reshape", reshape_curve),
+    ("curve_* that reshape", reshape_curve),
+    ("curve_join", join_curves),
+    ("curves_*", list_curves),
+    ("curve_arc, curve_conic", conics),
+    ("parameters", parameters_of_points),
+    ("curve_interpolate", interpolate),
+    ("curve_fit, curve_smooth*", fit),
+    ("curve_nearest*", nearest_on_curve),
+    ("surface_new", make_surface),
+    ("surface_evaluate, surface_curvatures", evaluate_surface),
+    ("surface_* that reshape", reshape_surface),
+    ("surface_* that reshape", reshape_surface),
+    ("surface_* of curves", surfaces_of_curves),
+    ("surface_nearest*", nearest_on_surface),
+];
