@@ -7,4 +7,5 @@ pub mod interpolate;
 pub mod invert;
 pub mod least_squares;
 pub mod parametrise;
+pub mod section;
 pub mod skin;
