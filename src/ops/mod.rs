@@ -7,5 +7,7 @@ pub mod interpolate;
 pub mod invert;
 pub mod least_squares;
 pub mod parametrise;
+pub mod project;
 pub mod section;
 pub mod skin;
+pub mod surface_offset;

@@ -8,7 +8,7 @@
 use super::pair::{At, Cells, Cut, Kind, Pair};
 use super::seeds::{Place, Seeds};
 use super::sheet::Sheet;
-use super::touch::{Contact, common_normal};
+use super::touch::{Contact, Normal, common_normal};
 use crate::error::Result;
 use crate::nurbs::{Direction, NurbsSurface};
 use crate::ops::closest;
@@ -21,7 +21,7 @@ const FLAT: f64 = 0.4;
 const PATIENCE: usize = 6;
 /// Fractions of the size: patches below are searched for touching, left as touching, given up.
 const TOUCHING: f64 = 0.1;
-const NEAR_TOUCHING: f64 = 2e-3;
+const NEAR_TOUCHING: f64 = 5e-3;
 const SMALLEST: f64 = 1e-6;
 
 /// A patch with its bounds.
@@ -34,6 +34,8 @@ struct Patch {
     /// The middle of the normals and the largest angle from it, in rad.
     axis: DVec3,
     spread: f64,
+    /// Middles of the derivatives.
+    along: [DVec3; 2],
     halves: Option<[usize; 2]>,
 }
 
@@ -64,6 +66,7 @@ impl Patch {
             radius: 0.5 * (bounds.1 - bounds.0).length(),
             axis: cross.normalize_or_zero(),
             spread: if known { bound.asin() } else { 4.0 },
+            along: [u, v],
             halves: None,
         }
     }
@@ -94,7 +97,8 @@ impl Patch {
         if self.low.cmpgt(other.high + gap).any() || other.low.cmpgt(self.high + gap).any() {
             return true;
         }
-        [self.axis, other.axis].into_iter().filter(|axis| *axis != DVec3::ZERO).any(|axis| {
+        let axes = |p: &Self| [p.axis, p.axis.cross(p.along[0]), p.axis.cross(p.along[1])];
+        axes(self).into_iter().chain(axes(other)).filter(|axis| *axis != DVec3::ZERO).any(|axis| {
             let ((a, b), (c, d)) = (self.extent(axis), other.extent(axis));
             a > d + gap || c > b + gap
         })
@@ -108,8 +112,10 @@ impl Patch {
 
     fn halved(&self) -> [Self; 2] {
         let (n, c) = (self.points.len(), self.piece.columns);
-        let along_v = self.points[0].distance(self.points[c - 1]).max(self.points[n - c].distance(self.points[n - 1]));
-        let along_u = self.points[0].distance(self.points[n - c]).max(self.points[c - 1].distance(self.points[n - 1]));
+        let along_v =
+            self.points[0].distance(self.points[c - 1]).max(self.points[n - c].distance(self.points[n - 1]));
+        let along_u =
+            self.points[0].distance(self.points[n - c]).max(self.points[c - 1].distance(self.points[n - 1]));
         let direction = if along_u > along_v { Direction::U } else { Direction::V };
         self.piece.clone().halves(direction).map(Self::new)
     }
@@ -188,22 +194,35 @@ fn examine(pair: &Pair, patches: [&Patch; 2], seeds: &mut Seeds) -> Verdict {
         return if start(pair, patches, &cells, guess, seeds) { Verdict::Done } else { Verdict::Halve(true) };
     }
     let radius = p.radius.max(q.radius) / pair.size;
-    if radius < TOUCHING {
-        if let Some(found) = common_normal(pair, &cells, guess) {
-            let here = p.is_near(found.at[0], 1.5) && q.is_near(found.at[1], 1.5);
-            if here && found.gap <= pair.tolerance {
-                if found.contact == Contact::Curve && coincide(pair, patches) {
-                    seeds.overlap(p.range());
-                    return Verdict::Done;
-                }
-                seeds.touch(pair, found);
-                if found.contact == Contact::Curve || radius < NEAR_TOUCHING {
-                    return Verdict::Done;
-                }
-            }
-        }
+    let found = if radius < TOUCHING { common_normal(pair, &cells, guess) } else { None };
+    match found.filter(|f| f.gap <= pair.tolerance) {
+        Some(found) => touch(pair, patches, found, radius, seeds),
+        None => Verdict::Halve(false),
     }
-    Verdict::Halve(false)
+}
+
+/// What a common normal of no length says about two patches of a size.
+fn touch(pair: &Pair, patches: [&Patch; 2], found: Normal, radius: f64, seeds: &mut Seeds) -> Verdict {
+    let [p, q] = patches;
+    let small = radius < NEAR_TOUCHING;
+    let here = p.is_near(found.at[0], 1.5) && q.is_near(found.at[1], 1.5);
+    let done = match found.contact {
+        Contact::Area => {
+            let common = coinciding(pair, patches);
+            let overlap = common == 9 || (small && common > 3);
+            if overlap {
+                seeds.overlap(p.range());
+            }
+            overlap || small
+        }
+        // What touches elsewhere is met by the patches there.
+        _ if !here => small,
+        contact => {
+            seeds.touch(pair, found);
+            contact == Contact::Curve || small
+        }
+    };
+    if done { Verdict::Done } else { Verdict::Halve(false) }
 }
 
 /// Notes points of the branch through two patches; whether there are any.
@@ -236,14 +255,14 @@ fn start(pair: &Pair, [p, q]: [&Patch; 2], cells: &Cells, guess: At, seeds: &mut
     found
 }
 
-/// Whether more of the first patch lies on the second surface than a curve has.
-fn coincide(pair: &Pair, [p, q]: [&Patch; 2]) -> bool {
-    let [Sheet::Surface(a), Sheet::Surface(b)] = &pair.sheets else { return false };
+/// How many of nine places of the first patch lie on the second surface.
+fn coinciding(pair: &Pair, [p, q]: [&Patch; 2]) -> usize {
+    let [Sheet::Surface(a), Sheet::Surface(b)] = &pair.sheets else { return 0 };
     let [low, high] = p.range();
     let place = |k: usize| low + (high - low) * DVec2::new((k / 3) as f64, (k % 3) as f64) * 0.5;
     let on = |k: &usize| {
         let uv = place(*k);
         closest::foot(&b.surface, a.surface.point(uv.x, uv.y), q.middle()).distance <= pair.tolerance
     };
-    (0..9).filter(on).count() > 3
+    (0..9).filter(on).count()
 }

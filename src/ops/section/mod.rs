@@ -76,12 +76,7 @@ pub struct Section {
 /// # Errors
 /// [`Error::Argument`] for a plane without direction or a tolerance that is not positive or below
 /// what rounding allows.
-pub fn with_plane(
-    surface: &NurbsSurface,
-    origin: DVec3,
-    normal: DVec3,
-    tolerance: f64,
-) -> Result<Section> {
+pub fn with_plane(surface: &NurbsSurface, origin: DVec3, normal: DVec3, tolerance: f64) -> Result<Section> {
     let Some(normal) = normal.try_normalize().filter(|_| origin.is_finite()) else {
         let why = format!("a point and a direction were expected, not {origin} and {normal}");
         return Err(Error::Argument { name: "plane", why });

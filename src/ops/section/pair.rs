@@ -63,9 +63,7 @@ impl Node {
 
     /// `Σ weight · node`.
     pub fn sum(terms: &[(f64, Node)]) -> Self {
-        let at = |f: fn(&Node) -> At| {
-            [0, 1].map(|k| terms.iter().map(|(w, n)| f(n)[k] * *w).sum::<DVec2>())
-        };
+        let at = |f: fn(&Node) -> At| [0, 1].map(|k| terms.iter().map(|(w, n)| f(n)[k] * *w).sum::<DVec2>());
         let of = |f: fn(&Node) -> DVec3| terms.iter().map(|(w, n)| f(n) * *w).sum();
         Self {
             at: at(|n| n.at),
@@ -124,12 +122,7 @@ impl Pair {
 
     /// The parts of the distance along the tangent plane vanish, and the normal of one sheet stands
     /// across the direction in which the sheets leave each other fastest.
-    fn touching(
-        &self,
-        a: &SurfaceDerivatives,
-        b: &SurfaceDerivatives,
-        apart: DVec3,
-    ) -> (DVec3, [DVec3; 4]) {
+    fn touching(&self, a: &SurfaceDerivatives, b: &SurfaceDerivatives, apart: DVec3) -> (DVec3, [DVec3; 4]) {
         let (p, q) = (a.u.normalize(), (a.v - a.u * (a.v.dot(a.u) / a.u.length_squared())).normalize());
         let normal = a.normal();
         let length = normal.length();

@@ -48,8 +48,7 @@ impl Seeds {
 
     /// Follows every branch once.
     pub fn branches(&mut self, pair: &Pair) -> Vec<Path> {
-        let targets: Vec<Target> =
-            self.contacts.iter().map(|c| Target { at: c.at, x: c.x, node: None }).collect();
+        let targets: Vec<Target> = self.contacts.iter().map(|c| Target { at: c.at, x: c.x }).collect();
         let mut paths = Vec::new();
         let touching: Vec<Place> = self.touching.iter().map(|&at| Place { at, inside: at }).collect();
         let crossing = std::mem::take(&mut self.crossing);

@@ -45,7 +45,8 @@ pub struct Cell {
 impl Cell {
     /// Whether the part of the surface that the cell belongs to has these parameters.
     pub fn part_holds(&self, at: DVec2) -> bool {
-        at.cmpge(self.part_low - 10.0 * self.slack).all() && at.cmple(self.part_high + 10.0 * self.slack).all()
+        at.cmpge(self.part_low - 10.0 * self.slack).all()
+            && at.cmple(self.part_high + 10.0 * self.slack).all()
     }
 }
 
@@ -130,12 +131,9 @@ impl Sheet {
     /// Point and derivatives; the part of the cell is continued beyond it.
     pub fn jet(&self, cell: &Cell, at: DVec2) -> SurfaceDerivatives {
         match self {
-            Self::Plane { origin, x, y } => SurfaceDerivatives {
-                s: *origin + *x * at.x + *y * at.y,
-                u: *x,
-                v: *y,
-                ..Default::default()
-            },
+            Self::Plane { origin, x, y } => {
+                SurfaceDerivatives { s: *origin + *x * at.x + *y * at.y, u: *x, v: *y, ..Default::default() }
+            }
             Self::Surface(parts) => parts.parts[cell.part].derivatives(at.x, at.y),
         }
     }
@@ -145,9 +143,14 @@ impl Sheet {
     pub fn cell(&self, at: DVec2, towards: DVec2) -> Option<Cell> {
         let all = DVec2::INFINITY;
         match self {
-            Self::Plane { .. } => {
-                Some(Cell { low: -all, high: all, part: 0, part_low: -all, part_high: all, slack: DVec2::ZERO })
-            }
+            Self::Plane { .. } => Some(Cell {
+                low: -all,
+                high: all,
+                part: 0,
+                part_low: -all,
+                part_high: all,
+                slack: DVec2::ZERO,
+            }),
             Self::Surface(parts) => parts.cell(at, towards),
         }
     }

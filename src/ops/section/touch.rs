@@ -11,6 +11,9 @@ const DAMPING: f64 = 1e-9;
 /// Ratio of the principal values of the parting below which the sheets touch along a curve.
 const ALONG_A_CURVE: f64 = 1e-4;
 
+/// Difference of curvatures, times the size, that is none.
+const ALIKE: f64 = 1e-7;
+
 /// What the sheets do where they touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Contact {
@@ -20,6 +23,8 @@ pub enum Contact {
     Node,
     /// They touch along a curve, or to a higher order.
     Curve,
+    /// They bend alike: over an area, or to a still higher order.
+    Area,
 }
 
 /// A common normal.
@@ -65,10 +70,8 @@ pub fn common_normal(pair: &Pair, cells: &Cells, guess: At) -> Option<Normal> {
     let mut y = joined(guess);
     for _ in 0..STEPS {
         let (residual, matrix, speeds) = system(pair, cells, parted(y));
-        let transposed = matrix.transpose();
         let largest = (0..4).map(|k| matrix.col(k).length_squared()).fold(0.0, f64::max);
-        let normal = transposed * matrix + DMat4::from_diagonal(DVec4::splat(DAMPING * largest));
-        let mut step = normal.inverse() * (transposed * residual);
+        let mut step = least_squares(&matrix, residual, DAMPING * largest)?;
         let length = step.length();
         if !length.is_finite() {
             return None;
@@ -82,6 +85,16 @@ pub fn common_normal(pair: &Pair, cells: &Cells, guess: At) -> Option<Normal> {
     None
 }
 
+/// `(MᵀM + damping)⁻¹ Mᵀ r`. The matrix may lack up to two ranks: factors keep what cofactors lose.
+fn least_squares(matrix: &DMat4, residual: DVec4, damping: f64) -> Option<DVec4> {
+    let normal = nalgebra::Matrix4::from_fn(|i, j| {
+        matrix.col(i).dot(matrix.col(j)) + if i == j { damping } else { 0.0 }
+    });
+    let right = nalgebra::Vector4::from_fn(|i, _| matrix.col(i).dot(residual));
+    let step = normal.cholesky()?.solve(&right);
+    Some(DVec4::new(step[0], step[1], step[2], step[3]))
+}
+
 fn classified(pair: &Pair, cells: &Cells, at: At) -> Option<Normal> {
     let (residual, ..) = system(pair, cells, at);
     if residual.length() > 1e-7 * pair.size {
@@ -89,7 +102,9 @@ fn classified(pair: &Pair, cells: &Cells, at: At) -> Option<Normal> {
     }
     let [a, b] = pair.jets(cells, at);
     let [(small, _), (large, _)] = parting(&a, &b);
-    let contact = if small.abs() < ALONG_A_CURVE * large.abs() || large.abs() * pair.size < 1e-9 {
+    let contact = if large.abs() * pair.size < ALIKE {
+        Contact::Area
+    } else if small.abs() < ALONG_A_CURVE * large.abs() {
         Contact::Curve
     } else if small * large > 0.0 {
         Contact::Point

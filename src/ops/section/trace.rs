@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 /// Fractions of a piece at which it is compared with the curve.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Pieces of one branch at most.
-const LONGEST: usize = 100_000;
+const LONGEST: usize = 20_000;
 /// Fraction of the size below which steps are no longer shortened.
 const SHORTEST: f64 = 1e-9;
 /// Largest turn of a piece, as the cosine.
@@ -22,8 +22,6 @@ const TURN: f64 = 0.7;
 pub struct Target {
     pub at: At,
     pub x: DVec3,
-    /// The whole node, where the branch started.
-    pub node: Option<Node>,
 }
 
 /// Why a branch ends.
@@ -57,8 +55,9 @@ pub struct Tracer<'a> {
 
 /// What an attempted step gives.
 enum Step {
-    /// A piece, and whether it ends on the line between two cells.
+    /// A piece.
     Piece(Segment),
+    /// The last piece.
     End(Segment, End),
     /// Too long; a length that may do.
     Shorter(f64),
@@ -86,7 +85,7 @@ impl Tracer<'_> {
         let Some((mut from, mut cells)) = self.enter(&middle, at, x, along) else {
             return Some((segments, End::Border));
         };
-        let start = Target { at, x, node: Some(from) };
+        let start = Target { at, x };
         let longest = 0.1 * self.pair.size;
         let mut h = (0.2 / from.bend.length()).min(longest);
         while segments.len() < LONGEST {
@@ -132,7 +131,11 @@ impl Tracer<'_> {
             if distance > 1.5 * h || ahead < 0.5 * distance || !self.is_near(from, target, distance) {
                 continue;
             }
-            let to = target.node.or_else(|| self.limit(from, target, cells));
+            // At the start the branch has a direction of its own.
+            let to = match end {
+                End::Closed => self.pair.node(self.kind, cells, (target.at, target.x), from.tangent),
+                _ => self.limit(from, target, cells),
+            };
             if let Some(piece) = to.and_then(|to| self.verified(from, to, cells).ok()) {
                 return Step::End(piece, end);
             }
@@ -178,14 +181,16 @@ impl Tracer<'_> {
         let Some((mut at, mut x)) = self.pair.point(self.kind, cells, guess(h), cut) else {
             return Step::Shorter(0.5 * h);
         };
-        if let Some((first, fraction)) = self.leaving(from, at, cells) {
-            match self.pair.point(self.kind, cells, guess(h * fraction), first) {
+        // Where two lines are near, the first found need not be the first met.
+        for _ in 0..2 {
+            let Some((line, fraction)) = self.leaving(from, at, cells) else { break };
+            match self.pair.point(self.kind, cells, guess(h * fraction), line) {
                 Some(on) if on.1.distance(from.x) <= 1.2 * h => (at, x) = on,
                 _ => return Step::Shorter(0.5 * h),
             }
-            if self.leaving(from, at, cells).is_some() {
-                return Step::Shorter(0.7 * h * fraction.max(0.1));
-            }
+        }
+        if self.leaving(from, at, cells).is_some() {
+            return Step::Shorter(0.5 * h);
         }
         let Some(to) = self.pair.node(self.kind, cells, (at, x), from.tangent) else {
             return Step::Shorter(0.5 * h);

@@ -4,10 +4,10 @@
 //! changes sign at most once, holds one branch at most, and that if its corners lie on both sides.
 //! Patches are quartered until this decides; what it cannot decide is where the surface touches.
 
+use super::pair::{At, Pair};
 use super::seeds::{Place, Seeds};
 use super::sheet::Sheet;
 use super::touch::{Contact, common_normal, on_plane};
-use super::pair::{At, Pair};
 use crate::error::Result;
 use crate::nurbs::NurbsSurface;
 use crate::ops::invert::bezier::{halve, surface_pieces};
@@ -201,6 +201,11 @@ fn touches(pair: &Pair, net: &Net, seeds: &mut Seeds) -> bool {
     if off.max_element() > 1.5 || found.gap > pair.tolerance {
         return false;
     }
-    seeds.touch(pair, found);
-    found.contact == Contact::Curve || net.depth >= NEAR_TOUCHING
+    match found.contact {
+        Contact::Area => net.depth >= NEAR_TOUCHING,
+        contact => {
+            seeds.touch(pair, found);
+            contact == Contact::Curve || net.depth >= NEAR_TOUCHING
+        }
+    }
 }
