@@ -1,4 +1,5 @@
-//! Operations on splines: interpolation, least squares, approximation, skinning, nearest points.
+//! Operations on splines: interpolation, least squares, approximation, skinning, nearest points,
+//! sections, offset surfaces, projected curves.
 
 pub mod approximate;
 pub mod closest;

@@ -105,12 +105,14 @@ impl Feet {
     /// The nearest point of the whole surface, if it is the foot of a perpendicular.
     fn foot(&self, t: f64) -> Option<DVec2> {
         let p = self.curve.point(t);
-        let found = self.inverter.nearest(p);
-        let [s, u, v] = self.inverter.surface().first_derivatives(found.at.x, found.at.y);
+        // Between patches the nearest point is only as good as its distance: sharpen it.
+        let surface = self.inverter.surface();
+        let found = closest::foot(surface, p, self.inverter.nearest(p).at);
+        let [s, u, v] = surface.first_derivatives(found.uv.x, found.uv.y);
         let way = p - s;
         // How far the foot is from where the perpendicular would stand.
         let upright = |d: DVec3| way.dot(d).abs() <= UPRIGHT * self.tolerance * d.length();
-        (upright(u) && upright(v)).then_some(found.at)
+        (upright(u) && upright(v)).then_some(found.uv)
     }
 
     /// Whether the foot moves steadily between two parameters.

@@ -5,6 +5,7 @@
 //! From these the branches are followed ([`trace`]). Branches end at borders of the surfaces, seams
 //! of closed ones among them.
 
+mod apex;
 mod boxes;
 mod pair;
 mod seeds;
@@ -131,7 +132,7 @@ fn pair(sheets: [Sheet; 2], low: DVec3, high: DVec3, tolerance: f64) -> Result<P
 }
 
 fn section(pair: &Pair, mut seeds: Seeds) -> Result<Section> {
-    let paths = seeds.branches(pair);
+    let paths = seeds.branches(pair)?;
     let crossing = |i: usize| paths.iter().any(|p| p.ends.contains(&End::Target(i)));
     let touching = seeds.contacts.iter().enumerate().map(|(i, c)| TouchingPoint {
         point: c.x,

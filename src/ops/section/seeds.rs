@@ -1,8 +1,10 @@
 //! From points on all branches to the branches.
 
+use super::apex::apexes;
 use super::pair::{At, Cut, Kind, Pair};
 use super::touch::{Contact, Normal};
 use super::trace::{End, Path, Target, Tracer};
+use crate::error::Result;
 use glam::{DVec2, DVec3};
 
 /// Touching points nearer than this fraction of the size are one.
@@ -47,8 +49,9 @@ impl Seeds {
     }
 
     /// Follows every branch once.
-    pub fn branches(&mut self, pair: &Pair) -> Vec<Path> {
-        let targets: Vec<Target> = self.contacts.iter().map(|c| Target { at: c.at, x: c.x }).collect();
+    pub fn branches(&mut self, pair: &Pair) -> Result<Vec<Path>> {
+        let mut targets: Vec<Target> = self.contacts.iter().map(|c| Target::new(c.at, c.x)).collect();
+        targets.extend(apexes(pair)?);
         let mut paths = Vec::new();
         let touching: Vec<Place> = self.touching.iter().map(|&at| Place { at, inside: at }).collect();
         let crossing = std::mem::take(&mut self.crossing);
@@ -58,7 +61,7 @@ impl Seeds {
                 self.follow(&tracer, place, &mut paths);
             }
         }
-        paths
+        Ok(paths)
     }
 
     fn follow(&mut self, tracer: &Tracer, place: Place, paths: &mut Vec<Path>) {

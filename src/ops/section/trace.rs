@@ -22,6 +22,15 @@ const TURN: f64 = 0.7;
 pub struct Target {
     pub at: At,
     pub x: DVec3,
+    /// 1 for each parameter that has a value there, 0 for those that only have a limit.
+    pub known: At,
+}
+
+impl Target {
+    /// A point with all its parameters.
+    pub fn new(at: At, x: DVec3) -> Self {
+        Self { at, x, known: [DVec2::ONE; 2] }
+    }
 }
 
 /// Why a branch ends.
@@ -85,7 +94,7 @@ impl Tracer<'_> {
         let Some((mut from, mut cells)) = self.enter(&middle, at, x, along) else {
             return Some((segments, End::Border));
         };
-        let start = Target { at, x };
+        let start = Target::new(at, x);
         let longest = 0.1 * self.pair.size;
         let mut h = (0.2 / from.bend.length()).min(longest);
         while segments.len() < LONGEST {
@@ -148,6 +157,7 @@ impl Tracer<'_> {
     fn is_near(&self, from: &Node, target: &Target, distance: f64) -> bool {
         (0..2).all(|k| {
             let (there, change) = (target.at[k] - from.at[k], from.first[k] * distance);
+            let (there, change) = (there * target.known[k], change * target.known[k]);
             (there - change).length() <= 0.7 * (change.length() + there.length())
         })
     }
@@ -161,14 +171,21 @@ impl Tracer<'_> {
             let t = 1.0 - fraction;
             let guess = [0, 1].map(|k| {
                 let slope = from.first[k] * way;
-                from.at[k] + slope * t + (target.at[k] - from.at[k] - slope) * (t * t)
+                let bend = from.second[k] * (0.5 * way * way);
+                let to_target = target.at[k] - from.at[k] - slope;
+                from.at[k]
+                    + slope * t
+                    + (to_target * target.known[k] + bend * (DVec2::ONE - target.known[k])) * (t * t)
             });
             let cut = Cut::Across { point: target.x - back * (way * fraction), direction: back };
             let place = self.pair.point(self.kind, cells, guess, cut)?;
             self.pair.node(self.kind, cells, place, back)
         };
         let nodes = [(3.0, near(0.03)?), (-3.0, near(0.06)?), (1.0, near(0.09)?)];
-        Some(Node { at: target.at, x: target.x, ..Node::sum(&nodes) })
+        let limit = Node::sum(&nodes);
+        let at =
+            [0, 1].map(|k| target.at[k] * target.known[k] + limit.at[k] * (DVec2::ONE - target.known[k]));
+        Some(Node { at, x: target.x, ..limit })
     }
 
     /// A step of about `h`, at most to the border of the cells.
