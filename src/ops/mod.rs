@@ -1,5 +1,5 @@
 //! Operations on splines: interpolation, least squares, approximation, skinning, nearest points,
-//! intersections, rays.
+//! intersections, rays, sections, offsets, projected curves.
 
 pub mod approximate;
 pub mod closest;
@@ -9,5 +9,8 @@ pub mod intersect;
 pub mod invert;
 pub mod least_squares;
 pub mod parametrise;
+pub mod project;
 pub mod ray;
+pub mod section;
 pub mod skin;
+pub mod surface_offset;

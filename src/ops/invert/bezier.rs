@@ -42,7 +42,7 @@ pub fn curve_pieces<P: Point>(curve: &NurbsCurve<P>) -> Result<Vec<CurvePiece<P>
 
 /// Halves homogeneous control points in place: `first` becomes the first half, the result is the
 /// second (de Casteljau).
-fn halve<T>(first: &mut [T]) -> Vec<T>
+pub(in crate::ops) fn halve<T>(first: &mut [T]) -> Vec<T>
 where
     T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
 {
