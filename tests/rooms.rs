@@ -4,11 +4,14 @@
 mod brep;
 mod brep_malformed;
 mod ffi;
+mod fillet;
 mod header;
 #[path = "intersect/main.rs"]
 mod intersect;
 mod invert;
 mod layering;
+mod offset;
 mod p5_files;
 mod package;
 mod ray;
+mod section;

@@ -1,0 +1,243 @@
+//! Which parts of an untrimmed offset keep their distance from a curve.
+//!
+//! A probe, a part of the offset with bounds, is halved until one of three things is certain: all of
+//! its points keep the distance, none does, or it is smaller than the tolerance. No intersection is
+//! sought: wherever the distance is lost, to another stretch, an end or a corner, is found.
+//!
+//! Near its own foot the source is always exactly as far as asked, and no bound decides. There it
+//! keeps out of the circle because it bends less than the circle does while it turns by less than a
+//! right angle (along the tangent, the sine of the heading grows with the bend), and beyond that as
+//! long as it heads away from the centre.
+
+use super::raw::{Element, Probe};
+use super::track::{Link, Track, off_segment, on_segment};
+use crate::ops::invert::CurveInverter;
+use glam::DVec2;
+use std::f64::consts::FRAC_PI_2;
+use std::rc::Rc;
+
+/// Newton steps to a cut at most.
+const STEPS: usize = 30;
+/// A foot is an end or a corner where its slope, as the cosine of an angle, is larger than this.
+const SLOPE: f64 = 1e-6;
+/// Steps of this fraction of the parameter are rounding.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+/// Steps of this fraction of the parameter's range that no longer shrink are rounding.
+const SETTLED: f64 = 1e-9;
+
+/// A link, or part of one, that may come too near, with the number of the whole one.
+type Candidate = (usize, Rc<Link>);
+
+/// Where the distance of an element to a curve passes through what was asked.
+#[derive(Debug, Clone, Copy)]
+pub struct Cut {
+    /// Parameter on the element.
+    pub at: f64,
+    /// Parameter of the foot on the curve.
+    pub foot: f64,
+    /// Whether the curve has a tangent there, perpendicular to the line from the foot.
+    pub tangent: bool,
+}
+
+/// A part of an element that keeps the distance.
+#[derive(Debug, Clone, Copy)]
+pub struct Kept {
+    /// Parameters at both ends.
+    pub range: [f64; 2],
+    /// What it was cut at, at both ends; none at the ends of the element.
+    pub cuts: [Option<Cut>; 2],
+}
+
+/// Judges probes by their distance from one curve.
+pub struct Judge<'a> {
+    /// The source of the probes.
+    pub source: &'a Track,
+    /// The curve to keep away from.
+    pub target: &'a Track,
+    /// Its nearest points.
+    pub inverter: &'a CurveInverter<DVec2>,
+    /// Whether the curve is the source itself.
+    pub own: bool,
+    /// How far the distance may fall short.
+    pub tolerance: f64,
+}
+
+impl Judge<'_> {
+    /// The parts of an element that keep the distance, in order.
+    pub fn kept(&self, element: &Element, probes: &[Probe]) -> Vec<Kept> {
+        let mut leaves: Vec<([f64; 2], bool)> = Vec::new();
+        let all = Rc::new(self.target.links.iter().cloned().enumerate().collect());
+        for probe in probes {
+            self.judge(probe, &all, |range, keeps| match leaves.last_mut() {
+                Some((last, kept)) if *kept == keeps => last[1] = range[1],
+                _ => leaves.push((range, keeps)),
+            });
+        }
+        let mut out = Vec::new();
+        for (i, &(range, keeps)) in leaves.iter().enumerate() {
+            if keeps {
+                let lost = [i.checked_sub(1).map(|k| leaves[k].0), leaves.get(i + 1).map(|l| l.0)];
+                let cut = |k: usize| lost[k].and_then(|lost| self.cut(element, range, lost, k));
+                let cuts = [cut(0), cut(1)];
+                let at = |k: usize| cuts[k].map_or(range[k], |c| c.at);
+                out.push(Kept { range: [at(0), at(1)], cuts });
+            }
+        }
+        out.retain(|kept| kept.range[0] < kept.range[1]);
+        out
+    }
+
+    /// Tells `leaf` the verdict on each part of a probe, in order.
+    fn judge(&self, probe: &Probe, all: &Rc<Vec<Candidate>>, mut leaf: impl FnMut([f64; 2], bool)) {
+        let mut stack = vec![(probe.clone(), all.clone())];
+        while let Some((probe, known)) = stack.pop() {
+            let rest = if probe.bend[0] > 1.0 { None } else { self.candidates(&probe, &known) };
+            match rest {
+                Some(rest) if rest.is_empty() => leaf(probe.range, true),
+                Some(rest) => {
+                    let rest = Rc::new(rest);
+                    let [first, second] = probe.halves(self.source);
+                    stack.extend([(second, rest.clone()), (first, rest)]);
+                }
+                None => leaf(probe.range, false),
+            }
+        }
+    }
+
+    /// Those of the candidates that may come too near to the probe, halved once where they are larger;
+    /// none where one comes too near to all of it. For the smallest probes it is all or nothing.
+    fn candidates(&self, probe: &Probe, known: &[Candidate]) -> Option<Vec<Candidate>> {
+        let floor = self.source.distance.abs() - 0.5 * self.tolerance;
+        let is_last = probe.reach <= 0.25 * self.tolerance;
+        let n = self.target.links.len();
+        let is_own = self.own && probe.bend[1] <= self.source.flat;
+        let [back, forth] = if is_own { [self.certain(probe, 0), self.certain(probe, 1)] } else { [0; 2] };
+        let is_certain = |root: usize| {
+            let before = (probe.between[0] + n - 1 - root) % n;
+            let after = (root + n - probe.between[1] % n) % n;
+            before < back || after < forth || (is_own && probe.own == Some(root))
+        };
+        let (mut out, mut stack) = (Vec::new(), Vec::new());
+        for (root, link) in known.iter().filter(|(root, _)| !is_certain(*root)) {
+            stack.push((link.clone(), false));
+            while let Some((link, is_half)) = stack.pop() {
+                if keeps_away(probe, &link, floor) {
+                    continue;
+                }
+                let is_point = is_last && link.reach <= 0.125 * self.tolerance;
+                if is_point || is_within(probe, &link, floor) {
+                    return None;
+                }
+                if is_last || (!is_half && link.reach > probe.reach) {
+                    stack.extend(link.halves(self.target.side).map(|half| (Rc::new(half), true)));
+                } else {
+                    out.push((*root, link));
+                }
+            }
+        }
+        Some(out)
+    }
+
+    /// How many links, going from the probe backwards (0) or forwards (1) along the source, keep out
+    /// of all its circles for sure.
+    fn certain(&self, probe: &Probe, way: usize) -> usize {
+        let (track, n) = (self.target, self.target.links.len());
+        let most = match (track.closed, way) {
+            (true, _) => n - usize::from(probe.own.is_some()),
+            (false, 0) => probe.between[0],
+            (false, _) => n - probe.between[1],
+        };
+        let [least, largest] = probe.angles;
+        let mut smooth = probe.smooth[way];
+        for k in 0..most {
+            let (j, shift) = if way == 1 {
+                let j = probe.between[1] + k;
+                (j % n, if j >= n { track.winding() } else { 0.0 })
+            } else {
+                let j = probe.between[0] + n - 1 - k;
+                (j % n, if j < n { -track.winding() } else { 0.0 })
+            };
+            let link = &track.links[j];
+            let joint = track.turns[if way == 1 { j } else { (j + 1) % n }];
+            let [low, high] = link.angles.map(|a| a + shift);
+            smooth = smooth
+                && joint <= track.sharp
+                && link.bend[1] <= track.flat
+                && high - least <= FRAC_PI_2
+                && largest - low <= FRAC_PI_2;
+            // Backwards the tangents point the other way.
+            let (from, sign) = if way == 1 { (link.ends[0], 1.0) } else { (link.ends[1], -1.0) };
+            let away = |e: &DVec2, c: &DVec2| sign * e.dot(from - *c) >= probe.sag;
+            let leaves = || link.edges.iter().all(|e| probe.ends.iter().all(|c| away(e, c)));
+            if !smooth && !leaves() {
+                return k;
+            }
+        }
+        most
+    }
+
+    /// The cut at one end of a kept part, next to one that is lost: where the distance from the foot
+    /// that is too near has grown to what was asked.
+    fn cut(&self, element: &Element, kept: [f64; 2], lost: [f64; 2], end: usize) -> Option<Cut> {
+        let (low, high) = (kept[0].min(lost[0]), kept[1].max(lost[1]));
+        let (a, b) = self.target.curve.knots().domain();
+        let mut s = kept[end];
+        let [p, _] = element.jet(self.source, s);
+        let mut u = self.inverter.nearest(p).at;
+        let [c, d, _] = self.target.curve.derivatives(u);
+        let tangent = (p - c).dot(d).abs() <= SLOPE * (p - c).length() * d.length();
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            let [p, along] = element.jet(self.source, s);
+            let [c, d, dd] = self.target.curve.derivatives(u);
+            let r = p - c;
+            // |r|² is as asked, and r is perpendicular to the curve unless the foot is a corner.
+            let excess = DVec2::new(r.length_squared() - self.source.distance.powi(2), r.dot(d));
+            let by_s = DVec2::new(2.0 * r.dot(along), along.dot(d));
+            let by_u = DVec2::new(-2.0 * r.dot(d), r.dot(dd) - d.length_squared());
+            let step = if tangent {
+                DVec2::new(excess.perp_dot(by_u), by_s.perp_dot(excess)) / by_s.perp_dot(by_u)
+            } else {
+                DVec2::new(excess.x / by_s.x, 0.0)
+            };
+            (s, u) = (s - step.x, (u - step.y).clamp(a, b));
+            if !(low..=high).contains(&s) || u.is_nan() {
+                return None;
+            }
+            let moved = step.x.abs();
+            if moved <= ROUNDING * s.abs() || (moved <= SETTLED * (high - low) && moved >= last) {
+                // What is given up must be too near, or this is the cut of another place.
+                let [given_up, _] = element.jet(self.source, 0.5 * (s + kept[end]));
+                let least = self.source.distance.abs() - 0.01 * self.tolerance;
+                let is_here = self.inverter.nearest(given_up).distance < least || s == kept[end];
+                return is_here.then_some(Cut { at: s, foot: u, tangent });
+            }
+            last = moved;
+        }
+        None
+    }
+}
+
+/// Whether one point of a link is nearer than so much to all of a probe: there is one within the
+/// tube's radius of every point of the chord.
+fn is_within(probe: &Probe, link: &Link, floor: f64) -> bool {
+    let on_chord = on_segment(probe.centre, link.ends);
+    probe.ends.iter().all(|end| end.distance(on_chord) + probe.sag + link.tube < floor)
+}
+
+/// Whether all of a link is at least so far from all of a probe.
+fn keeps_away(probe: &Probe, link: &Link, floor: f64) -> bool {
+    let apart = probe.centre.distance(link.centre) - probe.reach - link.reach;
+    apart >= floor || between(probe.ends, link.ends) - probe.sag - link.tube >= floor
+}
+
+/// Distance between two segments.
+fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
+    let side = |p: DVec2, q: DVec2, x: DVec2| (q - p).perp_dot(x - p);
+    if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
+        return 0.0;
+    }
+    let ends =
+        [off_segment(a, [c, d]), off_segment(b, [c, d]), off_segment(c, [a, b]), off_segment(d, [a, b])];
+    ends.into_iter().fold(f64::INFINITY, f64::min)
+}
