@@ -72,16 +72,14 @@ impl Seeds {
         if paths.iter().any(|path| covers(path, pair, x)) || self.is_contact(pair, x) {
             return;
         }
-        match tracer.branch(at, x) {
-            Some(path) if path.ends.contains(&End::Lost) => {
-                if !self.is_stub(pair, &path) {
-                    self.uncertain.push(at[0]);
-                    paths.push(path);
-                }
+        let Some(path) = tracer.branch(at, x) else { return };
+        if path.ends.contains(&End::Lost) {
+            if self.is_stub(pair, &path) {
+                return;
             }
-            Some(path) => paths.push(path),
-            None => {}
+            self.uncertain.push(at[0]);
         }
+        paths.push(path);
     }
 
     /// Whether a touching point is nearer than rounding lets tell from it.
