@@ -93,11 +93,11 @@ pub(crate) fn descend(shape: &impl Jet, p: DVec3, start: DVec2, [low, high]: [DV
             return Local { at: next, point, push, settled: true };
         }
         let noise = STEP * (p.abs().max_element() + d.s.abs().max_element());
+        // What rounding of the coordinates may add to the distance squared.
+        let slack = 1e-14 * r.length_squared() + 0.1 * noise * r.length() + 0.01 * noise * noise;
         let mut e = shape.jet(next);
         let mut halvings = 0;
-        while (e.s - p).length_squared() > r.length_squared() * (1.0 + 1e-14) + 0.01 * noise * noise
-            && halvings < HALVINGS
-        {
+        while (e.s - p).length_squared() > r.length_squared() + slack && halvings < HALVINGS {
             next = 0.5 * (at + next);
             e = shape.jet(next);
             halvings += 1;
