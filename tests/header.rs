@@ -165,7 +165,7 @@ fn documented_functions(header: &str) -> Vec<(String, String)> {
 fn the_cpp_headers_cover_every_function() {
     let folder = root().join("include/bladesmith");
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is committed");
-    let cpp = ["bladesmith.hpp", "curve.hpp", "surface.hpp"].map(read).concat();
+    let cpp = ["bladesmith.hpp", "core.hpp", "curve.hpp", "surface.hpp"].map(read).concat();
     for (_, declaration) in documented_functions(&generated()) {
         let name = declaration.split('(').next().unwrap_or_default().rsplit([' ', '*']).next();
         assert!(name.is_some_and(|name| cpp.contains(name)), "the headers for C++ do not use {name:?}");
