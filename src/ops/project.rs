@@ -16,6 +16,8 @@ const HALVINGS: u32 = 50;
 const SPANS: usize = 2000;
 /// Fraction of the tolerance by which a foot may miss the perpendicular.
 const UPRIGHT: f64 = 0.1;
+/// What feet are good to, in mm.
+const FOOT_MM: f64 = 5e-11;
 /// A foot that moves by more than this many times the way of its point has leapt.
 const LEAP: f64 = 20.0;
 
@@ -111,7 +113,8 @@ impl Feet {
         let [s, u, v] = surface.first_derivatives(found.uv.x, found.uv.y);
         let way = p - s;
         // How far the foot is from where the perpendicular would stand.
-        let upright = |d: DVec3| way.dot(d).abs() <= UPRIGHT * self.tolerance * d.length();
+        let allowed = (UPRIGHT * self.tolerance).max(FOOT_MM);
+        let upright = |d: DVec3| way.dot(d).abs() <= allowed * d.length();
         (upright(u) && upright(v)).then_some(found.uv)
     }
 
