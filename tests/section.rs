@@ -100,6 +100,22 @@ fn a_sphere_is_cut_in_a_circle() {
 }
 
 #[test]
+fn a_plane_through_the_poles_of_a_sphere_cuts_a_great_circle() {
+    for place in PLACES {
+        let map = placed(place);
+        let surface = sphere().mapped(&map).unwrap();
+        let tolerance = 1e-7 * place.0;
+        for normal in [DVec3::new(0.3, 1.0, 0.0).normalize(), DVec3::Y] {
+            let (origin, across) = (map(DVec3::ZERO), turn() * normal);
+            let found = section::with_plane(&surface, origin, across, tolerance).unwrap();
+            check_plane(&found, &surface, origin, across, tolerance);
+            let (got, expected) = (length(&found, tolerance) / place.0, TAU);
+            assert!((got - expected).abs() < 1e-5, "{place:?}, {normal}: {got}, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn a_tiny_circle_is_found_and_a_plane_just_outside_is_not_met() {
     let surface = sphere();
     let normal = DVec3::new(1.0, 0.3, 0.4).normalize();

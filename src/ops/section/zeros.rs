@@ -80,10 +80,15 @@ impl Net {
     }
 
     fn is_monotonic(&self, nothing: f64) -> bool {
-        let along_v = self.values.chunks(self.columns).flat_map(|row| row.windows(2).map(|w| w[1] - w[0]));
-        let along_u = self.values.iter().zip(&self.values[self.columns..]).map(|(a, b)| b - a);
-        let one_sign = |range: (f64, f64)| range.0 > nothing || range.1 < -nothing;
-        one_sign(bounds(along_v)) || one_sign(bounds(along_u))
+        // A side on which the distance vanishes is a factor that changes no sign within.
+        let counts = |line: &&[f64]| line.iter().any(|c| c.abs() > nothing);
+        let one_sign = |lines: &[f64], width: usize| {
+            let lines = lines.chunks(width).filter(counts);
+            let range = bounds(lines.flat_map(|line| line.windows(2).map(|w| w[1] - w[0])));
+            range.0 <= range.1 && (range.0 > nothing || range.1 < -nothing)
+        };
+        let rows = self.values.len() / self.columns;
+        one_sign(&self.values, self.columns) || one_sign(&self.clone().transposed().values, rows)
     }
 
     fn verdict(&self, nothing: f64) -> Verdict {
