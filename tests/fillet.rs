@@ -193,7 +193,7 @@ fn random_curve(random: &mut Random, from: DVec2, along: DVec2) -> Curve {
 fn random_corners_have_exactly_the_fillets_that_sampling_finds() {
     let mut random = Random(7);
     let (mut seen, mut none) = (0, 0);
-    for case in 0..60 {
+    for case in 0..500 {
         let angle = random.within(0.0, 6.3);
         let corner = DVec2::new(random.within(-1.0, 1.0), random.within(-1.0, 1.0));
         let along = [DVec2::from_angle(angle), DVec2::from_angle(angle + random.within(0.3, 6.0))];
@@ -204,7 +204,9 @@ fn random_corners_have_exactly_the_fillets_that_sampling_finds() {
         if case % 2 == 0 {
             first = first.reversed();
         }
-        let (curves, radius) = ([&first, &second], random.within(0.1, 2.0));
+        // Every tenth circle is too large for most corners.
+        let large = if case % 10 == 9 { 5.0 } else { 1.0 };
+        let (curves, radius) = ([&first, &second], large * random.within(0.1, 2.0));
         let found = fillets(&first, &second, radius, 1e-8).unwrap();
         none += usize::from(found.is_empty());
         for f in &found {
@@ -229,5 +231,5 @@ fn random_corners_have_exactly_the_fillets_that_sampling_finds() {
             }
         }
     }
-    assert!(seen > 20 && none < 60, "{seen} centres and {none} pairs without any are too few");
+    assert!(seen > 400 && none > 20, "{seen} centres and {none} pairs without any are too few");
 }

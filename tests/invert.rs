@@ -219,3 +219,27 @@ fn a_degenerate_side_is_one_point() {
     let below = inverter.nearest(DVec3::new(0.25, 1.0, 0.25));
     assert!((below.distance - 1.0).abs() < 1e-12, "{below:?}");
 }
+
+/// At a kink each piece has its own tangent, and Newton's method must not follow that of the next.
+#[test]
+fn feet_on_a_rational_polyline_lie_on_its_nearest_leg() {
+    let points = [(0.0, 3.0), (0.4, 0.0), (4.0, 4.5), (7.0, 1.0), (7.5, 5.0)].map(DVec2::from);
+    let knots = KnotVector::clamped(1, &[0.0, 0.4, 1.1, 1.4, 2.3]).unwrap();
+    let weights = vec![2.0, 0.6, 2.5, 0.5, 1.5];
+    let inverter =
+        CurveInverter::new(&NurbsCurve::new(knots, points.to_vec(), Some(weights)).unwrap()).unwrap();
+    let mut random = Random(11);
+    for _ in 0..5000 {
+        let leg = (4.0 * random.next()) as usize;
+        let p = points[leg].lerp(points[leg + 1], random.next().powi(3))
+            + 1e-2 * DVec2::new(random.next() - 0.5, random.next() - 0.5);
+        let from_leg = |w: &[DVec2]| {
+            let along = w[1] - w[0];
+            let s = ((p - w[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            p.distance(w[0] + along * s)
+        };
+        let expected = points.windows(2).map(from_leg).fold(f64::MAX, f64::min);
+        let found = inverter.nearest(p).distance;
+        assert!((found - expected).abs() < 1e-13, "{p}: {found} instead of {expected}");
+    }
+}

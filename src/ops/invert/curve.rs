@@ -7,7 +7,7 @@ use super::search::{Search, Shape, stationary};
 use super::tree::{Bounds, Tree, joined};
 use super::{Nearest, SAME};
 use crate::error::Result;
-use crate::nurbs::{NurbsCurve, Point};
+use crate::nurbs::{NurbsCurve, Point, Side};
 
 /// The smallest speed on a piece may be this fraction of the smallest one seen, squared.
 const METRIC_MARGIN: f64 = 0.5;
@@ -76,7 +76,7 @@ impl<P: Point> Arc<P> {
         let [a, b] = piece.range;
         let (mut speed, mut bend) = (f64::INFINITY, 0.0f64);
         for k in 0..SAMPLES {
-            let [_, d, dd] = curve.derivatives(a + (b - a) * k as f64 / (SAMPLES - 1) as f64);
+            let [_, d, dd] = jet(curve, a + (b - a) * k as f64 / (SAMPLES - 1) as f64, b);
             speed = speed.min(d.dot(d));
             bend = bend.max(dd.length());
         }
@@ -204,29 +204,39 @@ impl<P: Point> Shape for CurveInverter<P> {
     }
 }
 
+/// Point and two derivatives on a piece that ends at `end`: there from before it, as at a kink those
+/// of the next piece lead astray.
+fn jet<P: Point>(curve: &NurbsCurve<P>, t: f64, end: f64) -> [P; 3] {
+    if t < end {
+        return curve.derivatives(t);
+    }
+    let jet = curve.derivatives_from(Side::Below, t, 2);
+    [jet[0], jet[1], jet[2]]
+}
+
 /// The minimum of the distance within `range` from `start`: safeguarded Newton steps on
 /// `(C − P)·C′`, with the second derivative `|C′|² + (C − P)·C″` (*The NURBS Book*, eq. 6.4).
 fn foot<P: Point>(curve: &NurbsCurve<P>, p: P, start: f64, [a, b]: [f64; 2]) -> Nearest<f64, P> {
     let mut t = start;
-    let [mut c, mut d, mut dd] = curve.derivatives(t);
+    let [mut c, mut d, mut dd] = jet(curve, t, b);
     for _ in 0..STEPS {
         let r = c - p;
         let (gradient, speed) = (r.dot(d), d.dot(d));
         let bent = speed + r.dot(dd);
         let second = if bent > 0.1 * speed { bent } else { speed };
         let mut next = (t - gradient / second.max(f64::MIN_POSITIVE)).clamp(a, b);
-        let mut jet = curve.derivatives(next);
+        let mut at_next = jet(curve, next, b);
         let better = |x: P| (x - p).dot(x - p) <= r.dot(r) * (1.0 + 1e-14);
         for _ in 0..20 {
-            if better(jet[0]) {
+            if better(at_next[0]) {
                 break;
             }
             next = 0.5 * (t + next);
-            jet = curve.derivatives(next);
+            at_next = jet(curve, next, b);
         }
         let moved = (next - t).abs();
         t = next;
-        [c, d, dd] = jet;
+        [c, d, dd] = at_next;
         if moved <= 4.0 * f64::EPSILON * a.abs().max(b.abs()) {
             break;
         }

@@ -251,7 +251,10 @@ impl Track {
     fn bend(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
         for k in 0..SAMPLES {
-            let [_, d, dd] = self.curve.derivatives(a + (b - a) * (k as f64 + 0.5) / SAMPLES as f64);
+            // The ends are among them, as near an end of the curve the bend may be steep; where the
+            // curve stands still there is none.
+            let side = if k + 1 < SAMPLES { Side::Above } else { Side::Below };
+            let [_, d, dd] = self.jet(side, a + (b - a) * k as f64 / (SAMPLES - 1) as f64);
             let bend = self.distance * d.perp_dot(dd) / d.length().powi(3);
             (least, largest) = (least.min(bend), largest.max(bend));
         }
