@@ -1360,7 +1360,8 @@ int32_t bladesmith_surface_skin(const bladesmith_curve *const *sections,
  * distances: [count].
  * Units: mm.
  * Owner: the caller gives the arrays; written only on success.
- * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump;
+ * BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
  */
 int32_t bladesmith_curve_nearest(const bladesmith_curve *curve,
                                  const double *points,
@@ -1378,7 +1379,8 @@ int32_t bladesmith_curve_nearest(const bladesmith_curve *curve,
  * out: a table with the columns t, x, y, z (0 in the plane), distance.
  * Units: mm.
  * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
- * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump;
+ * BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
  */
 int32_t bladesmith_curve_nearest_all(const bladesmith_curve *curve,
                                      const double *point,
@@ -1395,7 +1397,8 @@ int32_t bladesmith_curve_nearest_all(const bladesmith_curve *curve,
  * distances: [count].
  * Units: mm.
  * Owner: the caller gives the arrays; written only on success.
- * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump;
+ * BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
  */
 int32_t bladesmith_surface_nearest(const bladesmith_surface *surface,
                                    const double *points,
@@ -1413,12 +1416,136 @@ int32_t bladesmith_surface_nearest(const bladesmith_surface *surface,
  * out: a table with the columns u, v, x, y, z, distance.
  * Units: mm.
  * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
- * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump;
+ * BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
  */
 int32_t bladesmith_surface_nearest_all(const bladesmith_surface *surface,
                                        const double *point,
                                        double tie,
                                        bladesmith_table **out);
+
+/**
+ * All places where two curves are not further apart than a tolerance, each once: single points, and
+ * stretches along which they are one.
+ *
+ * other: a curve of the same dimension.
+ * tolerance: above 0, and small against the curves.
+ * crossings: a table with the columns t, s, x, y, z, distance, tangential: parameters on curve and
+ * other, the middle between both points (z = 0 in the plane), how far these are apart, and 1 where
+ * the curves touch or 0 where they cross; by t. On the seam of a closed curve t is that of its start.
+ * overlaps: a table with the columns t0, t1, s0, s1: parameters on curve, ascending, and those on
+ * other at the same points. Their ends are not among the crossings.
+ * Units: mm.
+ * Owner: both tables are the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for curves that are near to each
+ * other in too many places, as with a tolerance in the order of their size.
+ */
+int32_t bladesmith_curve_intersect(const bladesmith_curve *curve,
+                                   const bladesmith_curve *other,
+                                   double tolerance,
+                                   bladesmith_table **crossings,
+                                   bladesmith_table **overlaps);
+
+/**
+ * The places that a curve passes twice to within a tolerance, as bladesmith_curve_intersect():
+ * s and t are different parameters, the smaller first. The seam of a closed curve and cusps are
+ * none.
+ *
+ * tolerance: above 0, and small against the curve.
+ * crossings, overlaps: as there.
+ * Units: mm.
+ * Owner: both tables are the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: as there.
+ */
+int32_t bladesmith_curve_self_intersect(const bladesmith_curve *curve,
+                                        double tolerance,
+                                        bladesmith_table **crossings,
+                                        bladesmith_table **overlaps);
+
+/**
+ * All places where a curve is not further than a tolerance from a ray, the first on the ray first.
+ * A stretch that runs along the ray is one of them.
+ *
+ * origin, direction: [dimension] of the curve; the direction of any length but 0.
+ * both: 0: the ray begins at its origin; not 0: it runs to both sides.
+ * tolerance: above 0, and small against the curve.
+ * out: a table with the columns length, from, to, t, x, y, z, distance, tangential: the length from
+ * the origin to the place, the part of the ray within the tolerance (of no length unless it runs
+ * along), the parameter and point of the curve (z = 0 in the plane), its distance from the ray, and
+ * 1 where the ray touches or runs along, 0 where it crosses.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS as bladesmith_curve_intersect().
+ */
+int32_t bladesmith_curve_ray(const bladesmith_curve *curve,
+                             const double *origin,
+                             const double *direction,
+                             uint32_t both,
+                             double tolerance,
+                             bladesmith_table **out);
+
+/**
+ * All places where a surface is not further than a tolerance from a ray, the first on the ray
+ * first. A stretch along which the ray grazes the surface or runs on it is one of them.
+ *
+ * origin, direction: [3]; the direction of any length but 0.
+ * both: 0: the ray begins at its origin; not 0: it runs to both sides.
+ * tolerance: above 0, and small against the surface.
+ * out: a table with the columns length, from, to, u, v, x, y, z, distance, tangential, as
+ * bladesmith_curve_ray().
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump;
+ * BLADESMITH_STATUS_NUMERICS for a tolerance in the order of the surface's size.
+ */
+int32_t bladesmith_surface_ray(const bladesmith_surface *surface,
+                               const double *origin,
+                               const double *direction,
+                               uint32_t both,
+                               double tolerance,
+                               bladesmith_table **out);
+
+/**
+ * The points at a distance from a curve in the plane, on one side of it, that are nowhere nearer to
+ * it, as curves that run as it does: several, one, or none where nothing is left.
+ *
+ * distance: positive to the left of the curve; not 0.
+ * tolerance: how far curves may be from the true offset; above 0 and below the distance.
+ * limit: 0: arcs go around outward corners; at least 1: straight lines go on until they meet, where
+ * the tip is not further from the corner than limit times the distance.
+ * pieces: a table with the columns curve, from, to, source_from, source_to: the smooth pieces of
+ * all curves in order, each with the index of its curve, its parameters there, and those on the
+ * source, which are one at a corner.
+ * Units: mm.
+ * Owner: `*curves` is the caller's, for bladesmith_curves_free(), and `*pieces`, for
+ * bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for a curve in space; BLADESMITH_STATUS_SPLINE for curves
+ * that jump; BLADESMITH_STATUS_NUMERICS for curves that stand still.
+ */
+int32_t bladesmith_curve_offset(const bladesmith_curve *curve,
+                                double distance,
+                                double tolerance,
+                                double limit,
+                                bladesmith_curves **curves,
+                                bladesmith_table **pieces);
+
+/**
+ * The surface at a distance along the normals S_u x S_v, over the same domain.
+ *
+ * distance: negative for the other side.
+ * tolerance: how far the result may be from the true offset at equal parameters; above 0.
+ * deviation: [1] is set to how far it was seen to be; may be NULL.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also where the offset would fold; BLADESMITH_STATUS_SPLINE for
+ * surfaces with a kink; BLADESMITH_STATUS_NUMERICS where there is no normal, and where the tolerance
+ * cannot be met.
+ */
+int32_t bladesmith_surface_offset(const bladesmith_surface *surface,
+                                  double distance,
+                                  double tolerance,
+                                  double *deviation,
+                                  bladesmith_surface **out);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -35,7 +35,21 @@ template <class T> struct Moved {
     double by;
 };
 
+/** Where curves meet. */
+struct Intersections {
+    /** Rows t, s, x, y, z, distance, tangential (0 or 1). */
+    Table crossings;
+    /** Rows t0, t1, s0, s1 of stretches along which both are one. */
+    Table overlaps;
+};
+
 class Curve;
+
+/** An offset: its curves, and rows curve, from, to, source_from, source_to of their pieces. */
+struct CurveOffset {
+    std::vector<Curve> curves;
+    Table pieces;
+};
 
 namespace detail {
 
@@ -313,6 +327,46 @@ public:
         return handles;
     }
 
+    /** Where it is not further than `tolerance` from another. */
+    Intersections intersect(const Curve &other, double tolerance) const
+    {
+        return intersections([&](auto crossings, auto overlaps) {
+            return bladesmith_curve_intersect(get(), other.get(), tolerance, crossings, overlaps);
+        });
+    }
+
+    /** Where it passes a place twice. */
+    Intersections self_intersect(double tolerance) const
+    {
+        return intersections([&](auto crossings, auto overlaps) {
+            return bladesmith_curve_self_intersect(get(), tolerance, crossings, overlaps);
+        });
+    }
+
+    /** Rows length, from, to, t, x, y, z, distance, tangential of where a ray, or a line, meets it. */
+    Table ray(View<double> origin, View<double> direction, double tolerance, bool both = false) const
+    {
+        detail::require(origin, dimension(), "origin");
+        detail::require(direction, dimension(), "direction");
+        return detail::OwnedTable([&](bladesmith_table **out) {
+                   return bladesmith_curve_ray(get(), origin.data(), direction.data(), both, tolerance, out);
+               }).values();
+    }
+
+    /** The trimmed offset; around outward corners arcs, or lines up to `limit` times the distance. */
+    CurveOffset offset(double distance, double tolerance, double limit = 0.0) const
+    {
+        bladesmith_curves *curves = nullptr;
+        const detail::OwnedTable pieces([&](bladesmith_table **out) {
+            return bladesmith_curve_offset(get(), distance, tolerance, limit, &curves, out);
+        });
+        const detail::OwnedCurves owned([&](bladesmith_curves **out) {
+            *out = curves;
+            return BLADESMITH_STATUS_OK;
+        });
+        return {owned.all(), pieces.values()};
+    }
+
 private:
     using Handle::Handle;
     friend class Surface;
@@ -345,6 +399,17 @@ private:
             return bladesmith_curve_conic(static_cast<std::uint32_t>(start.size()), start.data(), corner.data(), end.data(),
                                           through, weight, out);
         });
+    }
+
+    template <class Call> static Intersections intersections(Call call)
+    {
+        bladesmith_table *overlaps = nullptr;
+        const detail::OwnedTable crossings([&](bladesmith_table **out) { return call(out, &overlaps); });
+        const detail::OwnedTable owned([&](bladesmith_table **out) {
+            *out = overlaps;
+            return BLADESMITH_STATUS_OK;
+        });
+        return {crossings.values(), owned.values()};
     }
 
     Size size() const

@@ -168,6 +168,23 @@ public:
                }).values();
     }
 
+    /** Rows length, from, to, u, v, x, y, z, distance, tangential of where a ray, or a line, meets it. */
+    Table ray(const std::array<double, 3> &origin, const std::array<double, 3> &direction, double tolerance,
+              bool both = false) const
+    {
+        return detail::OwnedTable([&](bladesmith_table **out) {
+                   return bladesmith_surface_ray(get(), origin.data(), direction.data(), both, tolerance, out);
+               }).values();
+    }
+
+    /** The offset along the normals, and how far it is from the true one at equal parameters. */
+    Moved<Surface> offset(double distance, double tolerance) const
+    {
+        double deviation = 0.0;
+        Surface shape = made([&](auto out) { return bladesmith_surface_offset(get(), distance, tolerance, &deviation, out); });
+        return {std::move(shape), deviation};
+    }
+
 private:
     using Handle::Handle;
 

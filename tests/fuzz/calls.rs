@@ -1,6 +1,7 @@
 //! Every call of the kernel with arbitrary arguments. Arrays are as long as the header asks for:
 //! all else about them is arbitrary.
 
+use super::meets::{cast_rays, meet_curves, offset_curve, offset_surface};
 use super::source::Source;
 use bladesmith::ffi::library::bladesmith_last_error;
 use bladesmith::ffi::spline::curve::*;
@@ -31,21 +32,21 @@ pub struct Pool {
 const KEPT: usize = 24;
 
 impl Pool {
-    fn curve(&self, source: &mut Source) -> *const Curve {
+    pub fn curve(&self, source: &mut Source) -> *const Curve {
         if self.curves.is_empty() || source.once_in(200) {
             return null();
         }
         self.curves[source.below(self.curves.len())]
     }
 
-    fn surface(&self, source: &mut Source) -> *const Surface {
+    pub fn surface(&self, source: &mut Source) -> *const Surface {
         if self.surfaces.is_empty() || source.once_in(200) {
             return null();
         }
         self.surfaces[source.below(self.surfaces.len())]
     }
 
-    fn keep_curve(&mut self, source: &mut Source, curve: *mut Curve) {
+    pub fn keep_curve(&mut self, source: &mut Source, curve: *mut Curve) {
         if curve.is_null() {
             return;
         }
@@ -61,7 +62,7 @@ impl Pool {
         unsafe { bladesmith_curve_free(dropped) };
     }
 
-    fn keep_surface(&mut self, source: &mut Source, surface: *mut Surface) {
+    pub fn keep_surface(&mut self, source: &mut Source, surface: *mut Surface) {
         if surface.is_null() {
             return;
         }
@@ -116,7 +117,7 @@ fn pointer<T>(values: &Option<Vec<T>>) -> *const T {
 }
 
 /// An array to write to, filled with what must not be read.
-fn room(count: usize) -> Vec<f64> {
+pub fn room(count: usize) -> Vec<f64> {
     vec![f64::NAN; count]
 }
 
@@ -155,7 +156,7 @@ fn knots_along(surface: *const Surface, direction: u32) -> Vec<f64> {
 }
 
 /// A tolerance of usual size.
-fn tolerance(source: &mut Source) -> f64 {
+pub fn tolerance(source: &mut Source) -> f64 {
     if source.once_in(8) { source.number() } else { 10f64.powi(-(source.below(12) as i32)) }
 }
 
@@ -395,7 +396,7 @@ fn nearest_on_curve(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 /// Reads all rows of a table and frees it.
-fn read_table(table: *mut Table) {
+pub fn read_table(table: *mut Table) {
     if table.is_null() {
         return;
     }
@@ -521,7 +522,7 @@ fn nearest_on_surface(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 /// All of them; those that make handles come more often.
-pub const CALLS: [Call; 20] = [
+pub const CALLS: [Call; 24] = [
     ("curve_new", make_curve),
     ("curve_new", make_curve),
     ("curve_evaluate", evaluate_curve),
@@ -542,4 +543,8 @@ pub const CALLS: [Call; 20] = [
     ("surface_* that reshape", reshape_surface),
     ("surface_* of curves", surfaces_of_curves),
     ("surface_nearest*", nearest_on_surface),
+    ("curve_intersect, curve_self_intersect", meet_curves),
+    ("curve_ray, surface_ray", cast_rays),
+    ("curve_offset", offset_curve),
+    ("surface_offset", offset_surface),
 ];

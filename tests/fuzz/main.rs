@@ -3,6 +3,7 @@
 //! nightly compiler is installed.
 
 mod calls;
+mod meets;
 mod source;
 
 use calls::{CALLS, Pool, last_error};

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::ffi::guard::guard;
 use crate::ffi::handle::{self, Out};
 use crate::ffi::slice::ArrayOut;
-use crate::ops::invert::Nearest;
+use crate::ops::invert::{Nearest, check_size};
 use glam::{DVec2, DVec3};
 
 /// Where nearest points are written; any may be NULL.
@@ -55,7 +55,8 @@ impl<T: Copy, P: Row> Places<T, P> {
 /// distances: [count].
 /// Units: mm.
 /// Owner: the caller gives the arrays; written only on success.
-/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump;
+/// BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_curve_nearest(
     curve: *const Curve,
@@ -83,6 +84,7 @@ unsafe fn nearest_on_curve<P: Dimension>(
     // SAFETY: promised by the caller.
     let (points, places) =
         unsafe { (P::rows(points, count, "points")?, Places::new((t, "t"), feet, distances, count)?) };
+    check_size(points)?;
     let inverter = curve.inverter()?;
     places.fill(&points.iter().map(|&p| inverter.nearest(p)).collect::<Vec<_>>());
     Ok(())
@@ -96,7 +98,8 @@ unsafe fn nearest_on_curve<P: Dimension>(
 /// out: a table with the columns t, x, y, z (0 in the plane), distance.
 /// Units: mm.
 /// Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
-/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that jump;
+/// BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_curve_nearest_all(
     curve: *const Curve,
@@ -117,6 +120,7 @@ pub unsafe extern "C" fn bladesmith_curve_nearest_all(
 unsafe fn ties<P: Dimension>(curve: &Prepared<P>, point: *const f64, tie: f64) -> Result<Table> {
     // SAFETY: promised by the caller.
     let point = unsafe { P::row(point, "point")? };
+    check_size(&[point])?;
     let found = curve.inverter()?.nearest_all(point, tie);
     Ok(Table::new(found.iter().map(|nearest| {
         let [x, y, z] = nearest.point.coordinates();
@@ -133,7 +137,8 @@ unsafe fn ties<P: Dimension>(curve: &Prepared<P>, point: *const f64, tie: f64) -
 /// distances: [count].
 /// Units: mm.
 /// Owner: the caller gives the arrays; written only on success.
-/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump;
+/// BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_surface_nearest(
     surface: *const Surface,
@@ -152,6 +157,7 @@ pub unsafe extern "C" fn bladesmith_surface_nearest(
                 Places::new((uv.cast::<DVec2>(), "uv"), feet, distances, count)?,
             )
         };
+        check_size(points)?;
         let inverter = surface.inverter()?;
         places.fill(&inverter.nearest_many(points));
         Ok(())
@@ -166,7 +172,8 @@ pub unsafe extern "C" fn bladesmith_surface_nearest(
 /// out: a table with the columns u, v, x, y, z, distance.
 /// Units: mm.
 /// Owner: `*out` is the caller's, for bladesmith_table_free(); written only on success.
-/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump;
+/// BLADESMITH_STATUS_NUMERICS for coordinates beyond 1e150.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_surface_nearest_all(
     surface: *const Surface,
@@ -181,6 +188,7 @@ pub unsafe extern "C" fn bladesmith_surface_nearest_all(
         let (surface, point, out) = unsafe {
             (handle::borrow(surface, "surface")?, DVec3::row(point, "point")?, Out::new(out, "out")?)
         };
+        check_size(&[point])?;
         let found = surface.inverter()?.nearest_all(point, tie);
         out.hand_over(Table::new(found.iter().map(|nearest| {
             let ([u, v], [x, y, z]) = (nearest.at.to_array(), nearest.point.to_array());

@@ -5,7 +5,7 @@
 use super::bezier::{CurvePiece, curve_pieces};
 use super::search::{Search, Shape, stationary};
 use super::tree::{Bounds, Tree, joined};
-use super::{Nearest, SAME};
+use super::{Nearest, SAME, check_size};
 use crate::error::Result;
 use crate::nurbs::{NurbsCurve, Point, Side};
 
@@ -118,8 +118,9 @@ impl<P: Point> CurveInverter<P> {
     /// Prepares a curve.
     ///
     /// # Errors
-    /// As [`NurbsCurve::insert_knot`].
+    /// As [`NurbsCurve::insert_knot`] and [`check_size`].
     pub fn new(curve: &NurbsCurve<P>) -> Result<Self> {
+        check_size(curve.poles())?;
         let curve = curve.clamped()?;
         let mut rest: Vec<Arc<P>> =
             curve_pieces(&curve)?.into_iter().rev().map(|p| Arc::new(&curve, p, 0)).collect();
@@ -143,7 +144,7 @@ impl<P: Point> CurveInverter<P> {
         &self.curve
     }
 
-    /// The nearest point to `p`, globally.
+    /// The nearest point to `p`, globally; `p` of a size that [`check_size`] allows.
     pub fn nearest(&self, p: P) -> Nearest<f64, P> {
         self.search(p, None).best
     }
@@ -224,6 +225,10 @@ fn foot<P: Point>(curve: &NurbsCurve<P>, p: P, start: f64, [a, b]: [f64; 2]) -> 
         let (gradient, speed) = (r.dot(d), d.dot(d));
         let bent = speed + r.dot(dd);
         let second = if bent > 0.1 * speed { bent } else { speed };
+        // Derivatives over a tiny domain overflow: they tell of no way down.
+        if !(gradient.is_finite() && second.is_finite()) {
+            break;
+        }
         let mut next = (t - gradient / second.max(f64::MIN_POSITIVE)).clamp(a, b);
         let mut at_next = jet(curve, next, b);
         let better = |x: P| (x - p).dot(x - p) <= r.dot(r) * (1.0 + 1e-14);
@@ -242,4 +247,24 @@ fn foot<P: Point>(curve: &NurbsCurve<P>, p: P, start: f64, [a, b]: [f64; 2]) -> 
         }
     }
     Nearest { at: t, point: c, distance: (c - p).length() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+    use crate::nurbs::KnotVector;
+    use glam::DVec2;
+
+    #[test]
+    fn coordinates_whose_squares_overflow_are_refused() {
+        let line = |x: f64| {
+            let knots = KnotVector::clamped(1, &[0.0, 1.0]).expect("knots");
+            NurbsCurve::new(knots, vec![DVec2::ZERO, DVec2::new(x, 1.0)], None).expect("a line")
+        };
+        let refused = CurveInverter::new(&line(1e151));
+        assert!(matches!(refused, Err(Error::Numerics { .. })), "1e151 was taken");
+        let found = CurveInverter::new(&line(1e149)).expect("1e149 is small enough").nearest(DVec2::Y);
+        assert!(found.distance <= 1.0, "the start is 1 away, not {}", found.distance);
+    }
 }

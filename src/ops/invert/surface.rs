@@ -10,7 +10,7 @@ use super::patch::{Hull, Patch};
 use super::search::{Search, Shape, stationary};
 use super::taylor::Powers;
 use super::tree::Tree;
-use super::{Nearest, SAME};
+use super::{Nearest, SAME, check_size};
 use crate::error::Result;
 use crate::nurbs::NurbsSurface;
 use glam::{DVec2, DVec3};
@@ -40,8 +40,9 @@ impl SurfaceInverter {
     /// Prepares a surface.
     ///
     /// # Errors
-    /// As [`NurbsSurface::insert_knot`].
+    /// As [`NurbsSurface::insert_knot`] and [`check_size`].
     pub fn new(surface: &NurbsSurface) -> Result<Self> {
+        check_size(surface.poles())?;
         let surface = surface.clamped()?;
         let powers = [surface.knots_u(), surface.knots_v()].map(|knots| Powers::new(knots.degree()));
         let rational = surface.weights().is_some();
@@ -71,7 +72,7 @@ impl SurfaceInverter {
         &self.surface
     }
 
-    /// The nearest point to `p`, globally.
+    /// The nearest point to `p`, globally; `p` of a size that [`check_size`] allows.
     pub fn nearest(&self, p: DVec3) -> Nearest<DVec2, DVec3> {
         self.search(p, None, None).best
     }

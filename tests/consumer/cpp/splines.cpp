@@ -151,6 +151,24 @@ static void check_making()
     expect_error(BLADESMITH_STATUS_ARGUMENT, "parameters needs 2", [&] { Surface::skin(sections, std::array{0.0}, 1); });
 }
 
+static void check_meetings()
+{
+    const Curve first(2, 1, std::array{0.0, 0.0, 1.0, 1.0}, std::array{0.0, 0.0, 4.0, 4.0});
+    const Curve second(2, 1, std::array{0.0, 0.0, 1.0, 1.0}, std::array{0.0, 2.0, 4.0, 2.0});
+    const auto met = first.intersect(second, 1e-9);
+    expect(met.crossings.rows() == 1 && met.overlaps.rows() == 0, "one crossing");
+    expect_near(met.crossings(0, 0), 0.5, "the parameter of a crossing");
+    expect(first.self_intersect(1e-9).crossings.rows() == 0, "a line without loops");
+    expect_near(first.ray(std::array{3.0, 0.0}, std::array{0.0, 2.0}, 1e-9)(0, 0), 3.0, "the length of a ray");
+    const auto offset = second.offset(1.0, 1e-6);
+    expect(offset.curves.size() == 1 && offset.pieces.columns == 5, "one offset");
+    expect_near(offset.curves[0].evaluate(std::array{offset.pieces(0, 1)})[1], 3.0, "the height of an offset");
+    const auto surface = cone();
+    const auto hits = surface.ray({0, 0.5, 0.5}, {1, 0, 0}, 1e-9, true);
+    expect(hits.rows() == 2 && hits.columns == 10, "a line that meets a cone twice");
+    expect(surface.offset(0.1, 1e-4).by <= 1e-4, "an offset within its tolerance");
+}
+
 static void check_errors()
 {
     const auto surface = cone();
@@ -170,6 +188,7 @@ try {
     check_fits();
     check_surfaces();
     check_making();
+    check_meetings();
     check_errors();
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 } catch (const std::exception &error) {

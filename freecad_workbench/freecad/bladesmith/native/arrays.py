@@ -86,19 +86,25 @@ class Spline(_Handle):
         return self._changed(verb, *arguments, byref(moved)), moved.value
 
 
-class _Table(Spline):
+class Table(Spline):
+    """Rows of numbers that a call found."""
+
     _free = "bladesmith_table_free"
     _noun = "table"
+
+    def values(self):
+        """(n, columns)."""
+        import numpy
+
+        size = c_size_t(), c_size_t()
+        self._call("size", self._handle, *map(byref, size))
+        out = numpy.empty((size[0].value, size[1].value))
+        self._call("data", self._handle, len(out), out.ctypes.data)
+        return out
 
 
 def table(verb: str, noun: str, *arguments):
     """The (n, columns) array that a call returns as a table."""
-    import numpy
-
-    found = _Table()
+    found = Table()
     getattr(found._core, f"bladesmith_{noun}_{verb}")(*arguments, byref(found._handle))
-    size = c_size_t(), c_size_t()
-    found._call("size", found._handle, *map(byref, size))
-    out = numpy.empty((size[0].value, size[1].value))
-    found._call("data", found._handle, len(out), out.ctypes.data)
-    return out
+    return found.values()

@@ -6,7 +6,7 @@ from ctypes import byref, c_size_t, c_uint32
 from typing import Optional
 
 from .api import _core
-from .arrays import Spline, address, handles, line, matrix, row, rows, table
+from .arrays import Spline, Table, address, handles, line, matrix, row, rows, table
 
 SPACINGS = ("uniform", "chord", "centripetal", "affine_chord", "affine_angle")
 """How :func:`parameters` may space, in the order of the core's numbers."""
@@ -308,6 +308,45 @@ class Curve(Spline):
         """Rows t, x, y, z, distance of all points as near as the nearest to within ``tie``."""
         point = row(point, self.dimension, "point")
         return table("nearest_all", "curve", self._handle, address(point), tie)
+
+    def intersect(self, other: "Curve", tolerance: float):
+        """Where it is not further than ``tolerance`` from another: crossings and overlaps.
+
+        Crossings are rows t, s, x, y, z, distance, tangential (0 or 1), overlaps rows t0, t1, s0,
+        s1; t are parameters of this curve, s of the other.
+        """
+        return self._met("intersect", other._handle, tolerance)
+
+    def self_intersect(self, tolerance: float):
+        """Where it passes a place twice, as :meth:`intersect`; s and t are both its own."""
+        return self._met("self_intersect", tolerance)
+
+    def _met(self, verb: str, *arguments):
+        crossings, overlaps = Table(), Table()
+        places = byref(crossings._handle), byref(overlaps._handle)
+        self._call(verb, self._handle, *arguments, *places)
+        return crossings.values(), overlaps.values()
+
+    def ray(self, origin, direction, tolerance: float, *, both: bool = False):
+        """Where a ray, or a line to both sides, meets it.
+
+        Rows length, from, to, t, x, y, z, distance, tangential (0 or 1), the first on the ray
+        first; from and to are lengths between which the ray runs along the curve.
+        """
+        n = self.dimension
+        where = row(origin, n, "origin"), row(direction, n, "direction")
+        return table("ray", "curve", self._handle, *map(address, where), both, tolerance)
+
+    def offset(self, distance: float, tolerance: float, *, limit: float = 0.0):
+        """The points at a distance, positive to the left, that are nowhere nearer: curves, pieces.
+
+        Around outward corners go arcs, or straight lines that meet within ``limit`` times the
+        distance. Pieces are rows curve, from, to, source_from, source_to.
+        """
+        curves, pieces = _Curves(), Table()
+        places = byref(curves._handle), byref(pieces._handle)
+        self._call("offset", self._handle, distance, tolerance, limit, *places)
+        return curves.all(), pieces.values()
 
 
 def _samples(degree: int, knots, t, points, weights):

@@ -212,3 +212,16 @@ class Surface(Spline):
         """Rows u, v, x, y, z, distance of all points as near as the nearest to within ``tie``."""
         point = row(point, 3, "point")
         return table("nearest_all", "surface", self._handle, address(point), tie)
+
+    def ray(self, origin, direction, tolerance: float, *, both: bool = False):
+        """Where a ray, or a line to both sides, meets it.
+
+        Rows length, from, to, u, v, x, y, z, distance, tangential (0 or 1), the first on the ray
+        first; from and to are lengths between which the ray grazes the surface or runs on it.
+        """
+        where = row(origin, 3, "origin"), row(direction, 3, "direction")
+        return table("ray", "surface", self._handle, *map(address, where), both, tolerance)
+
+    def offset(self, distance: float, tolerance: float) -> tuple["Surface", float]:
+        """Along the normals, over the same domain; and how far from the true offset it was seen."""
+        return self._changed_within("offset", distance, tolerance)
