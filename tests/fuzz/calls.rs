@@ -1,7 +1,7 @@
 //! Every call of the kernel with arbitrary arguments. Arrays are as long as the header asks for:
 //! all else about them is arbitrary.
 
-use super::meets::{cast_rays, meet_curves, offset_curve, offset_surface};
+use super::meets::{cast_rays, meet_curves, offset_curve};
 use super::source::Source;
 use bladesmith::ffi::library::bladesmith_last_error;
 use bladesmith::ffi::spline::curve::*;
@@ -522,7 +522,7 @@ fn nearest_on_surface(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 /// All of them; those that make handles come more often.
-pub const CALLS: [Call; 24] = [
+pub const CALLS: [Call; 23] = [
     ("curve_new", make_curve),
     ("curve_new", make_curve),
     ("curve_evaluate", evaluate_curve),
@@ -546,5 +546,4 @@ pub const CALLS: [Call; 24] = [
     ("curve_intersect, curve_self_intersect", meet_curves),
     ("curve_ray, surface_ray", cast_rays),
     ("curve_offset", offset_curve),
-    ("surface_offset", offset_surface),
 ];

@@ -1,6 +1,7 @@
-//! Calls that find where shapes meet, and offsets.
+//! Calls that find where shapes meet, and offsets of curves: those of surfaces have no bound of their
+//! time yet.
 
-use super::calls::{Pool, read_table, room, tolerance};
+use super::calls::{Pool, read_table, tolerance};
 use super::source::Source;
 use bladesmith::ffi::spline::curves::*;
 use bladesmith::ffi::spline::intersect::*;
@@ -54,17 +55,5 @@ pub fn offset_curve(source: &mut Source, pool: &mut Pool) -> i32 {
     };
     read_table(pieces);
     pool.keep_curve(source, out);
-    status
-}
-
-pub fn offset_surface(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (surface, distance) = (pool.surface(source), source.number());
-    // A finer tolerance on arbitrary poles cannot be met, and it takes very long to find out.
-    let within = if source.once_in(8) { -source.unit() } else { 4.0 * distance.abs() };
-    let (mut deviation, mut out) = (room(1), null_mut());
-    // SAFETY: the handle is alive or NULL, and there is room for a number.
-    let status =
-        unsafe { bladesmith_surface_offset(surface, distance, within, deviation.as_mut_ptr(), &mut out) };
-    pool.keep_surface(source, out);
     status
 }
