@@ -5,6 +5,7 @@
 mod calls;
 mod meets;
 mod source;
+mod surfaces;
 
 use calls::{CALLS, Pool, last_error};
 use source::Source;
