@@ -23,8 +23,25 @@ class Interface(unittest.TestCase):
     def test_every_function_is_named_and_none_that_is_not_there(self):
         bare = re.sub(r"/\*.*?\*/|//[^\n]*", "", HEADER, flags=re.S)
         declared = set(re.findall(r"\b(bladesmith_\w+)\s*\(", bare))
+        splines = {
+            name
+            for name in declared
+            if re.match("bladesmith_(curves?|surface|table|parameters)", name)
+        }
         table = page("c-api").split("## Functions")[1].split("##")[0]
-        self.assertEqual(set(re.findall(r"`(bladesmith_\w+)`", table)), declared)
+        self.assertEqual(set(re.findall(r"`(bladesmith_\w+)`", table)), declared - splines)
+
+        kernel = page("kernel")
+        short = {name.lstrip("_") for name in re.findall(r"`(\w+)`", kernel)}
+        left_out = {n for n in splines if not {n, re.sub("bladesmith_[a-z]+_", "", n)} & short}
+        self.assertEqual(left_out, set())
+        rows = kernel.split("## Functions")[1].split("##")[0].splitlines()
+        columns = [row.split("|")[2] for row in rows if row.startswith("|")][2:]
+        named = {
+            name if name.startswith("bladesmith_") else f"bladesmith_curve_{name}"
+            for name in re.findall(r"`(\w+)`", " ".join(columns))
+        }
+        self.assertEqual(named - splines, set())
 
     def test_every_status_has_its_number_exception_and_exit_code(self):
         declared = dict(re.findall(r"BLADESMITH_STATUS_(\w+) = (\d+),", HEADER))
