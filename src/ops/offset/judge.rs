@@ -1,8 +1,13 @@
 //! Which parts of an untrimmed offset keep their distance from a curve.
 //!
-//! A probe, a part of the offset with bounds, is halved until one of three things is certain: all of
-//! its points keep the distance, none does, or it is smaller than the tolerance. No intersection is
-//! sought: wherever the distance is lost, to another stretch, an end or a corner, is found.
+//! A probe, a part of the offset with bounds, is halved until it is certain that all of its points keep
+//! the distance or that none does; what falls short by no more than a part of the tolerance may count
+//! as either. No intersection is sought: wherever the distance is lost, to another stretch, an end or a
+//! corner, is found.
+//!
+//! Probe and curve are compared chord by chord. What a chord leaves uncertain shrinks with the square of
+//! its length, so that the curve is halved only until its tubes are as narrow as the probe is short: a
+//! few stretches of it suffice even where it touches the circle of the distance around the probe.
 //!
 //! Near its own foot the source is always exactly as far as asked, and no bound decides. There it
 //! keeps out of the circle because it bends less than the circle does while it turns by less than a
@@ -20,6 +25,12 @@ use std::rc::Rc;
 const STEPS: usize = 30;
 /// A foot is an end or a corner where its slope, as the cosine of an angle, is larger than this.
 const SLOPE: f64 = 1e-6;
+/// A probe keeps the distance when it falls short by no more than this share of the tolerance.
+const KEEPS: f64 = 0.6;
+/// A probe loses the distance when it falls short by more than this share of the tolerance.
+const LOSES: f64 = 0.2;
+/// Probes and tubes smaller than this share of the tolerance decide in any case.
+const DECIDES: f64 = 0.05;
 /// Steps of this fraction of the parameter are rounding.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Steps of this fraction of the parameter's range that no longer shrink are rounding.
@@ -104,11 +115,14 @@ impl Judge<'_> {
         }
     }
 
-    /// Those of the candidates that may come too near to the probe, halved once where they are larger;
-    /// none where one comes too near to all of it. For the smallest probes it is all or nothing.
+    /// Those of the candidates that may come too near to the probe, halved while they are less certain
+    /// than the probe is long; none where one comes too near to all of it.
     fn candidates(&self, probe: &Probe, known: &[Candidate]) -> Option<Vec<Candidate>> {
-        let floor = self.source.distance.abs() - 0.5 * self.tolerance;
-        let is_last = probe.reach <= 0.25 * self.tolerance;
+        let distance = self.source.distance.abs();
+        let [keeps, loses] = [KEEPS, LOSES].map(|share| distance - share * self.tolerance);
+        let smallest = DECIDES * self.tolerance;
+        let fine = (0.25 * probe.reach).max(smallest);
+        let is_last = probe.reach <= smallest;
         let n = self.target.links.len();
         let is_own = self.own && probe.bend[1] <= self.source.flat;
         let [back, forth] = if is_own { [self.certain(probe, 0), self.certain(probe, 1)] } else { [0; 2] };
@@ -119,17 +133,16 @@ impl Judge<'_> {
         };
         let (mut out, mut stack) = (Vec::new(), Vec::new());
         for (root, link) in known.iter().filter(|(root, _)| !is_certain(*root)) {
-            stack.push((link.clone(), false));
-            while let Some((link, is_half)) = stack.pop() {
-                if keeps_away(probe, &link, floor) {
+            stack.push(link.clone());
+            while let Some(link) = stack.pop() {
+                if keeps_away(probe, &link, keeps) {
                     continue;
                 }
-                let is_point = is_last && link.reach <= 0.125 * self.tolerance;
-                if is_point || is_within(probe, &link, floor) {
+                if is_within(probe, &link, loses) || (is_last && link.tube <= fine) {
                     return None;
                 }
-                if is_last || (!is_half && link.reach > probe.reach) {
-                    stack.extend(link.halves(self.target.side).map(|half| (Rc::new(half), true)));
+                if link.tube > fine {
+                    stack.extend(link.halves(self.target.side).map(Rc::new));
                 } else {
                     out.push((*root, link));
                 }
