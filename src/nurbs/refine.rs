@@ -157,9 +157,13 @@ pub(super) fn insert_all<P: Point>(knots: &KnotVector, net: &mut Net<P>, new: &[
     Ok(knots)
 }
 
+/// Whether both ends are knots exactly once more than the degree: with further ones the poles at the
+/// ends have no part in the curve.
 fn is_clamped(knots: &KnotVector) -> bool {
-    let flat = knots.flat();
-    knots.domain() == (flat[0], flat[flat.len() - 1])
+    let (flat, p) = (knots.flat(), knots.degree());
+    let (a, b) = knots.domain();
+    let is_end = |k: &f64| *k == a || *k == b;
+    flat[0] == a && flat[flat.len() - 1] == b && flat.iter().filter(|k| is_end(k)).count() == 2 * (p + 1)
 }
 
 /// Refuses to insert outside the domain or beyond the degree.
@@ -314,6 +318,19 @@ mod tests {
         let poles = (0..7).map(|i| DVec3::new(i as f64, (i * i) as f64 * 0.3, (i as f64).sin())).collect();
         let weights = Some(vec![1.0, 2.0, 0.5, 1.0, 1.5, 0.8, 1.2]);
         NurbsCurve::new(KnotVector::new(3, flat).unwrap(), poles, weights).unwrap()
+    }
+
+    #[test]
+    fn clamping_drops_poles_without_a_part_in_the_curve() {
+        let flat = vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0, 1.0];
+        let poles: Vec<DVec3> = (0..7).map(|i| DVec3::new(i as f64, (i * i) as f64, 1.0)).collect();
+        let curve = NurbsCurve::new(KnotVector::new(2, flat).unwrap(), poles.clone(), None).unwrap();
+        let clamped = curve.clamped().unwrap();
+        assert_eq!(clamped.knots().flat(), [0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0]);
+        assert_eq!(clamped.poles(), &poles[1..5]);
+        for t in [0.0, 0.3, 0.4, 0.9, 1.0] {
+            assert_eq!(clamped.point(t), curve.point(t), "at {t}");
+        }
     }
 
     fn saddle() -> NurbsSurface {

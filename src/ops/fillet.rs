@@ -90,13 +90,12 @@ pub fn fillets(
     let mut found: Vec<Fillet> = Vec::new();
     for side in [1.0, -1.0] {
         let source = Track::new(first, side * radius, tolerance)?;
-        let judge =
-            Judge { source: &source, target: &target, inverter: &inverters[1], own: false, tolerance };
+        let judge = Judge::new(&source, &target, &inverters[1], tolerance);
         for (element, probes) in elements(&source, Corner::Arc) {
             if !matches!(element, Element::Stretch { .. }) {
                 continue;
             }
-            let cuts = judge.kept(&element, &probes).into_iter().flat_map(|kept| kept.cuts);
+            let cuts = judge.kept(&element, &probes)?.into_iter().flat_map(|kept| kept.cuts);
             for cut in cuts.flatten().filter(|cut| cut.tangent) {
                 let fillet = fillet(&source, &target, &element, cut);
                 let free = inverters.iter().all(|i| i.nearest(fillet.centre).distance >= radius - tolerance);

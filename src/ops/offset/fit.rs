@@ -13,6 +13,8 @@ const SAMPLES: [f64; 3] = [0.2, 0.5, 0.8];
 const MARGIN: f64 = 1.2;
 /// Halvings at most.
 const DEPTH: usize = 30;
+/// Pieces of one stretch at most.
+const PIECES: usize = 20_000;
 /// A stretch is straight or round when it is so to this fraction of its coordinates.
 const EXACT: f64 = 1e-14;
 
@@ -137,6 +139,14 @@ fn quintic(track: &Track, [a, b]: [f64; 2], tolerance: f64) -> Result<NurbsCurve
             if depth == DEPTH || piece.error(track) <= tolerance {
                 pieces.push(piece);
                 continue;
+            }
+            if pieces.len() + rest.len() >= PIECES {
+                let why = format!(
+                    "the offset of the curve from {} to {} takes more than {PIECES} pieces: ask for a coarser tolerance than \
+                     {tolerance:e} mm or offset parts of the curve",
+                    w[0], w[1]
+                );
+                return Err(Error::Numerics { why });
             }
             let middle = 0.5 * (range[0] + range[1]);
             let between = jet(track, Side::Above, middle)?;

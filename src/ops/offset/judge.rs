@@ -5,9 +5,10 @@
 //! as either. No intersection is sought: wherever the distance is lost, to another stretch, an end or a
 //! corner, is found.
 //!
-//! Probe and curve are compared chord by chord. What a chord leaves uncertain shrinks with the square of
-//! its length, so that the curve is halved only until its tubes are as narrow as the probe is short: a
-//! few stretches of it suffice even where it touches the circle of the distance around the probe.
+//! Probe and curve are compared chord by chord, and that one is halved which leaves more uncertain: the
+//! probe by how far its distance from the chord varies, the curve by how far it leaves the chord. As the
+//! latter shrinks with the square of the length, a few stretches of the curve suffice even where it
+//! touches the circle of the distance around the probe.
 //!
 //! Near its own foot the source is always exactly as far as asked, and no bound decides. There it
 //! keeps out of the circle because it bends less than the circle does while it turns by less than a
@@ -15,9 +16,11 @@
 //! long as it heads away from the centre.
 
 use super::raw::{Element, Probe};
-use super::track::{Link, Track, off_segment, on_segment};
+use super::track::{Link, Track, off_segment};
+use crate::error::{Error, Result};
 use crate::ops::invert::CurveInverter;
 use glam::DVec2;
+use std::cell::Cell;
 use std::f64::consts::FRAC_PI_2;
 use std::rc::Rc;
 
@@ -29,8 +32,10 @@ const SLOPE: f64 = 1e-6;
 const KEEPS: f64 = 0.6;
 /// A probe loses the distance when it falls short by more than this share of the tolerance.
 const LOSES: f64 = 0.2;
-/// Probes and tubes smaller than this share of the tolerance decide in any case.
-const DECIDES: f64 = 0.05;
+/// What is uncertain by this share of the tolerance is as good as certain.
+const CERTAIN: f64 = 0.05;
+/// Comparisons of a probe with a stretch of the curve at most, in all.
+const COMPARISONS: usize = 4_000_000;
 /// Steps of this fraction of the parameter are rounding.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Steps of this fraction of the parameter's range that no longer shrink are rounding.
@@ -61,28 +66,39 @@ pub struct Kept {
 
 /// Judges probes by their distance from one curve.
 pub struct Judge<'a> {
-    /// The source of the probes.
-    pub source: &'a Track,
-    /// The curve to keep away from.
-    pub target: &'a Track,
-    /// Its nearest points.
-    pub inverter: &'a CurveInverter<DVec2>,
-    /// Whether the curve is the source itself.
-    pub own: bool,
-    /// How far the distance may fall short.
-    pub tolerance: f64,
+    source: &'a Track,
+    target: &'a Track,
+    inverter: &'a CurveInverter<DVec2>,
+    own: bool,
+    tolerance: f64,
+    comparisons: Cell<usize>,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    /// Keeps the offset of `source` away from `target`, which may be the same, with its nearest points;
+    /// distances may fall short by `tolerance`.
+    pub fn new(
+        source: &'a Track,
+        target: &'a Track,
+        inverter: &'a CurveInverter<DVec2>,
+        tolerance: f64,
+    ) -> Self {
+        let own = std::ptr::eq(source, target);
+        Self { source, target, inverter, own, tolerance, comparisons: Cell::new(0) }
+    }
+
     /// The parts of an element that keep the distance, in order.
-    pub fn kept(&self, element: &Element, probes: &[Probe]) -> Vec<Kept> {
+    ///
+    /// # Errors
+    /// [`Error::Numerics`] where that takes too many comparisons.
+    pub fn kept(&self, element: &Element, probes: &[Probe]) -> Result<Vec<Kept>> {
         let mut leaves: Vec<([f64; 2], bool)> = Vec::new();
         let all = Rc::new(self.target.links.iter().cloned().enumerate().collect());
         for probe in probes {
             self.judge(probe, &all, |range, keeps| match leaves.last_mut() {
                 Some((last, kept)) if *kept == keeps => last[1] = range[1],
                 _ => leaves.push((range, keeps)),
-            });
+            })?;
         }
         let mut out = Vec::new();
         for (i, &(range, keeps)) in leaves.iter().enumerate() {
@@ -95,34 +111,38 @@ impl Judge<'_> {
             }
         }
         out.retain(|kept| kept.range[0] < kept.range[1]);
-        out
+        Ok(out)
     }
 
     /// Tells `leaf` the verdict on each part of a probe, in order.
-    fn judge(&self, probe: &Probe, all: &Rc<Vec<Candidate>>, mut leaf: impl FnMut([f64; 2], bool)) {
+    fn judge(
+        &self,
+        probe: &Probe,
+        all: &Rc<Vec<Candidate>>,
+        mut leaf: impl FnMut([f64; 2], bool),
+    ) -> Result<()> {
         let mut stack = vec![(probe.clone(), all.clone())];
         while let Some((probe, known)) = stack.pop() {
-            let rest = if probe.bend[0] > 1.0 { None } else { self.candidates(&probe, &known) };
+            let rest = if probe.bend[0] > 1.0 { None } else { self.candidates(&probe, &known)? };
             match rest {
                 Some(rest) if rest.is_empty() => leaf(probe.range, true),
-                Some(rest) => {
+                Some(rest) if probe.is_divisible() => {
                     let rest = Rc::new(rest);
                     let [first, second] = probe.halves(self.source);
                     stack.extend([(second, rest.clone()), (first, rest)]);
                 }
-                None => leaf(probe.range, false),
+                _ => leaf(probe.range, false),
             }
         }
+        Ok(())
     }
 
-    /// Those of the candidates that may come too near to the probe, halved while they are less certain
-    /// than the probe is long; none where one comes too near to all of it.
-    fn candidates(&self, probe: &Probe, known: &[Candidate]) -> Option<Vec<Candidate>> {
+    /// Those of the candidates that may come too near to the probe, halved while they leave more
+    /// uncertain than the probe does; none where one comes too near to all of it.
+    fn candidates(&self, probe: &Probe, known: &[Candidate]) -> Result<Option<Vec<Candidate>>> {
         let distance = self.source.distance.abs();
         let [keeps, loses] = [KEEPS, LOSES].map(|share| distance - share * self.tolerance);
-        let smallest = DECIDES * self.tolerance;
-        let fine = (0.25 * probe.reach).max(smallest);
-        let is_last = probe.reach <= smallest;
+        let smallest = CERTAIN * self.tolerance;
         let n = self.target.links.len();
         let is_own = self.own && probe.bend[1] <= self.source.flat;
         let [back, forth] = if is_own { [self.certain(probe, 0), self.certain(probe, 1)] } else { [0; 2] };
@@ -132,23 +152,48 @@ impl Judge<'_> {
             before < back || after < forth || (is_own && probe.own == Some(root))
         };
         let (mut out, mut stack) = (Vec::new(), Vec::new());
+        self.spend(known.len(), probe)?;
         for (root, link) in known.iter().filter(|(root, _)| !is_certain(*root)) {
             stack.push(link.clone());
             while let Some(link) = stack.pop() {
-                if keeps_away(probe, &link, keeps) {
+                self.spend(1, probe)?;
+                if probe.centre.distance(link.centre) - probe.reach - link.reach >= keeps {
                     continue;
                 }
-                if is_within(probe, &link, loses) || (is_last && link.tube <= fine) {
-                    return None;
+                let [near, far] = distances(probe.ends, link.ends);
+                let slack = probe.sag + link.tube;
+                if near - slack >= keeps {
+                    continue;
                 }
-                if link.tube > fine {
+                if far + slack < loses {
+                    return Ok(None);
+                }
+                let varies = far - near + 2.0 * probe.sag;
+                if link.tube > (0.25 * varies).max(smallest) && link.reach > smallest {
                     stack.extend(link.halves(self.target.side).map(Rc::new));
-                } else {
+                } else if probe.reach > smallest {
                     out.push((*root, link));
+                } else {
+                    return Ok(None);
                 }
             }
         }
-        Some(out)
+        Ok(Some(out))
+    }
+
+    /// Counts comparisons of a probe.
+    fn spend(&self, comparisons: usize, probe: &Probe) -> Result<()> {
+        let spent = self.comparisons.get() + comparisons;
+        self.comparisons.set(spent);
+        if spent <= COMPARISONS {
+            return Ok(());
+        }
+        let why = format!(
+            "the offset by {} mm is still undecided at the parameter {} after {COMPARISONS} comparisons: ask for \
+             a coarser tolerance than {:e} mm or offset parts of the curve",
+            self.source.distance, probe.range[0], self.tolerance
+        );
+        Err(Error::Numerics { why })
     }
 
     /// How many links, going from the probe backwards (0) or forwards (1) along the source, keep out
@@ -231,26 +276,14 @@ impl Judge<'_> {
     }
 }
 
-/// Whether one point of a link is nearer than so much to all of a probe: there is one within the
-/// tube's radius of every point of the chord.
-fn is_within(probe: &Probe, link: &Link, floor: f64) -> bool {
-    let on_chord = on_segment(probe.centre, link.ends);
-    probe.ends.iter().all(|end| end.distance(on_chord) + probe.sag + link.tube < floor)
-}
-
-/// Whether all of a link is at least so far from all of a probe.
-fn keeps_away(probe: &Probe, link: &Link, floor: f64) -> bool {
-    let apart = probe.centre.distance(link.centre) - probe.reach - link.reach;
-    apart >= floor || between(probe.ends, link.ends) - probe.sag - link.tube >= floor
-}
-
-/// Distance between two segments.
-fn between([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
+/// Least and largest distance of the points of one segment from another one.
+fn distances([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> [f64; 2] {
+    let ends = [off_segment(a, [c, d]), off_segment(b, [c, d])];
+    let far = ends[0].max(ends[1]);
     let side = |p: DVec2, q: DVec2, x: DVec2| (q - p).perp_dot(x - p);
     if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
-        return 0.0;
+        return [0.0, far];
     }
-    let ends =
-        [off_segment(a, [c, d]), off_segment(b, [c, d]), off_segment(c, [a, b]), off_segment(d, [a, b])];
-    ends.into_iter().fold(f64::INFINITY, f64::min)
+    let near = off_segment(c, [a, b]).min(off_segment(d, [a, b]));
+    [near.min(ends[0]).min(ends[1]), far]
 }

@@ -121,16 +121,10 @@ impl Offset {
     pub fn trimmed(&self, curve: &NurbsCurve<DVec2>) -> Result<Vec<OffsetCurve>> {
         let track = self.track(curve)?;
         let inverter = CurveInverter::new(&track.curve)?;
-        let judge = Judge {
-            source: &track,
-            target: &track,
-            inverter: &inverter,
-            own: true,
-            tolerance: self.tolerance,
-        };
+        let judge = Judge::new(&track, &track, &inverter, self.tolerance);
         let (mut elements, mut segments) = (Vec::new(), Vec::new());
         for (element, probes) in raw::elements(&track, self.corner) {
-            let kept = judge.kept(&element, &probes);
+            let kept = judge.kept(&element, &probes)?;
             segments.extend(kept.iter().map(|k| Segment { element: elements.len(), range: k.range }));
             elements.push(element);
         }

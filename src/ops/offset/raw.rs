@@ -142,6 +142,13 @@ impl Probe {
         Self::new(Form::Arc { centre, start, turn }, range, ends, angles, [0.0; 2])
     }
 
+    /// Whether there is a parameter between both ends.
+    pub fn is_divisible(&self) -> bool {
+        let [a, b] = self.range;
+        let middle = 0.5 * (a + b);
+        a < middle && middle < b
+    }
+
     /// Both halves.
     pub fn halves(&self, track: &Track) -> [Self; 2] {
         let [a, b] = self.range;

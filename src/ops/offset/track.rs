@@ -4,6 +4,8 @@
 use crate::error::{Error, Result};
 use crate::nurbs::{NurbsCurve, Side};
 use crate::ops::invert::bezier::{CurvePiece, curve_pieces};
+use crate::ops::invert::check_size;
+use crate::tolerance::PARAMETER_RELATIVE;
 use glam::DVec2;
 use std::ops::Range;
 use std::rc::Rc;
@@ -12,6 +14,10 @@ use std::rc::Rc;
 const TURN: f64 = 0.5;
 /// Halvings of a piece at most.
 const DEPTH: usize = 48;
+/// Links of a source at most.
+const LINKS: usize = 20_000;
+/// Tolerances below this fraction of the largest coordinate are rounding.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Places on a link at which its curvature is looked at.
 const SAMPLES: usize = 5;
 /// The curvature of a link may leave the range seen by this share of it.
@@ -148,17 +154,12 @@ impl Link {
     }
 }
 
-/// The point of a segment nearest to `p`.
-pub fn on_segment(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
+/// Distance from a segment.
+pub fn off_segment(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let chord = b - a;
     let squared = chord.length_squared();
     let s = if squared > 0.0 { ((p - a).dot(chord) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    a + chord * s
-}
-
-/// Distance from a segment.
-pub fn off_segment(p: DVec2, segment: [DVec2; 2]) -> f64 {
-    p.distance(on_segment(p, segment))
+    p.distance(a + chord * s)
 }
 
 /// The source of an offset.
@@ -186,7 +187,9 @@ impl Track {
     /// Prepares a source for the offset at a signed distance to a tolerance.
     ///
     /// # Errors
-    /// [`Error::Spline`] for a curve that jumps, [`Error::Numerics`] for one that stands still.
+    /// [`Error::Spline`] for a curve that jumps, [`Error::Numerics`] for one that stands still, has
+    /// coordinates beyond 1e150 or turns too often, [`Error::Argument`] for a tolerance that is lost in
+    /// rounding.
     pub fn new(curve: &NurbsCurve<DVec2>, distance: f64, tolerance: f64) -> Result<Self> {
         let curve = curve.clamped()?;
         let (knots, (a, b)) = (curve.knots(), curve.knots().domain());
@@ -194,8 +197,21 @@ impl Track {
         if let Some((t, _)) = inner.clone().find(|&(_, m)| m > knots.degree()) {
             return Err(Error::Spline { why: format!("the curve jumps at {t}: offset its parts") });
         }
+        let fused = |w: &[f64]| w[1] - w[0] <= PARAMETER_RELATIVE * a.abs().max(b.abs());
+        if let Some(w) = knots.breaks().windows(2).find(|w| fused(w)) {
+            let why = format!("the knots {} and {} are as good as one: remove either", w[0], w[1]);
+            return Err(Error::Spline { why });
+        }
         let (low, high) =
             curve.poles().iter().fold((DVec2::MAX, DVec2::MIN), |(low, high), &p| (low.min(p), high.max(p)));
+        check_size(&[low, high, DVec2::splat(distance)])?;
+        let least = ROUNDING * low.abs().max(high.abs()).max(DVec2::splat(distance.abs())).max_element();
+        if tolerance < least {
+            let why = format!(
+                "with coordinates and a distance that large at least {least:e} mm was expected, not {tolerance:e}"
+            );
+            return Err(Error::Argument { name: "tolerance", why });
+        }
         let gap = curve.point(a).distance(curve.point(b));
         let relative = tolerance / distance.abs();
         let mut track = Self {
@@ -236,6 +252,10 @@ impl Track {
                 let first = self.links.is_empty();
                 self.turns.push(if first { 0.0 } else { link.headings[0] - before.1 });
                 self.links.push(Rc::new(link));
+            } else if self.links.len() + rest.len() >= LINKS {
+                let why =
+                    format!("the curve takes more than {LINKS} stretches that hardly turn: offset its parts");
+                return Err(Error::Numerics { why });
             } else if depth < DEPTH {
                 let [a, b] = link.piece.halves();
                 rest.extend([(b, depth + 1), (a, depth + 1)]);
