@@ -4,7 +4,7 @@ use super::fit;
 use super::raw::Element;
 use super::track::Track;
 use super::{OffsetCurve, OffsetPiece};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::nurbs::NurbsCurve;
 use glam::DVec2;
 
@@ -35,7 +35,7 @@ impl Chain<'_> {
     /// The curves that the segments, in order, make up.
     ///
     /// # Errors
-    /// As [`fit::part`].
+    /// As [`fit::part`]; [`Error::Numerics`] where parts do not meet.
     pub fn curves(&self, mut segments: Vec<Segment>) -> Result<Vec<OffsetCurve>> {
         segments.retain(|s| self.size(s) > self.tolerance);
         let ends: Vec<[DVec2; 2]> = segments.iter().map(|s| [self.end(s, 0), self.end(s, 1)]).collect();
@@ -103,10 +103,21 @@ impl Chain<'_> {
             pieces.push(OffsetPiece { source: element.source(range), range: [from, from + (b - a)] });
             joined = Some(match joined {
                 None => part,
-                Some(curve) => curve.joined(&part, self.tolerance)?,
+                Some(curve) => {
+                    let at = pieces[pieces.len() - 1].source[0];
+                    curve.joined(&part, self.tolerance).map_err(|_| self.broken(at))?
+                }
             });
         }
         let curve = joined.expect("a curve has at least one member");
         Ok(OffsetCurve { curve, closed, pieces })
+    }
+    fn broken(&self, at: f64) -> Error {
+        let why = format!(
+            "the offset breaks at the parameter {at} by more than {:e} mm, where the curve all but stands still: \
+             split it there or ask for a coarser tolerance",
+            self.tolerance
+        );
+        Error::Numerics { why }
     }
 }
