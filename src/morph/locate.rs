@@ -108,13 +108,13 @@ fn add_cells(patch: usize, surface: &NurbsSurface, us: &[f64], vs: &[f64], out: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ops::approximate::{Breaks, surface};
+    use crate::ops::approximate::{Breaks, Finest, surface};
 
     #[test]
     fn boxes_hold_the_surface() {
-        let f = |u: f64, v: f64| DVec3::new((2.0 * u).cos() * 3.0, (2.0 * u).sin() * 3.0, v + u * u * v);
+        let f = |u: f64, v: f64| Ok(DVec3::new((2.0 * u).cos() * 3.0, (2.0 * u).sin() * 3.0, v + u * u * v));
         let b = || Breaks::simple(5, &[0.0, 1.5, 3.0]);
-        let (s, _) = surface(f, b(), b(), 1e-6, 60).unwrap();
+        let (s, _) = surface(f, b(), b(), 1e-6, Finest::spans(60)).unwrap();
         let cells = Cells::new(&[(&s, DVec2::ZERO, DVec2::splat(3.0))]);
         for k in 0..5000 {
             let uv = DVec2::new((k as f64 * 0.7345).fract(), (k as f64 * 0.3127).fract()) * 3.0;

@@ -9,7 +9,7 @@ use super::space::{MAX_SPACE_DEGREE, Space};
 use crate::brep::{BSplineCurve, BSplineSurface, Curve3d, Surface};
 use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsSurface};
-use crate::ops::approximate::{self, Breaks};
+use crate::ops::approximate::{self, Breaks, Finest};
 use crate::ops::interpolate::Collocation;
 use glam::{DVec2, DVec3};
 
@@ -60,7 +60,8 @@ pub fn represent(surface: &Surface, low: DVec2, high: DVec2) -> Result<Represent
         (true, None) => FILLET_MM,
         _ => EXACT_MM,
     };
-    let (surface, error_mm) = approximate::surface(|u, v| surface.point(u, v), u, v, tolerance, SPAN_LIMIT)?;
+    let (surface, error_mm) =
+        approximate::surface(|u, v| Ok(surface.point(u, v)), u, v, tolerance, Finest::spans(SPAN_LIMIT))?;
     Ok(Represented { surface, own_poles: false, user_poles, error_mm })
 }
 

@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::nurbs::{KnotVector, NurbsCurve, NurbsSurface, Point};
 use glam::DVec3;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Inner samples of a span at which the error is looked at.
 const SAMPLES: [f64; 3] = [0.2, 0.5, 0.8];
@@ -74,6 +75,10 @@ impl Breaks {
         marked
     }
 
+    fn spans(&self) -> usize {
+        self.at.len() - 1
+    }
+
     fn samples(&self) -> Vec<f64> {
         self.at.windows(2).flat_map(|w| SAMPLES.map(|s| w[0].0 + s * (w[1].0 - w[0].0))).collect()
     }
@@ -110,37 +115,56 @@ pub fn curve<P: Point + crate::linalg::banded::Rhs>(
     }
 }
 
-/// Approximates `f` on the given breaks to `tolerance`, with at most `limit` spans a direction;
-/// returns the surface and the largest error seen.
+/// How fine a surface may become.
+#[derive(Debug, Clone, Copy)]
+pub struct Finest {
+    /// Spans a direction.
+    pub spans: usize,
+    /// Spans along u times spans along v.
+    pub patches: usize,
+}
+
+impl Finest {
+    /// So many spans a direction.
+    pub fn spans(spans: usize) -> Self {
+        Self { spans, patches: spans * spans }
+    }
+}
+
+/// Approximates `f` on the given breaks to `tolerance`, or as near as the limits allow; returns the
+/// surface and the largest error seen.
 ///
 /// # Errors
-/// As [`Collocation::new`].
+/// The first one of `f`, and as [`Collocation::new`].
 pub fn surface(
-    f: impl Fn(f64, f64) -> DVec3 + Sync,
+    f: impl Fn(f64, f64) -> Result<DVec3>,
     mut u: Breaks,
     mut v: Breaks,
     tolerance: f64,
-    limit: usize,
+    limit: Finest,
 ) -> Result<(NurbsSurface, f64)> {
     // Many of a round's points are those of the round before.
     let mut known: HashMap<[u64; 2], DVec3> = HashMap::new();
-    let mut grid = |us: &[f64], vs: &[f64]| -> Vec<DVec3> {
-        let mut f = |a: f64, b: f64| *known.entry([a.to_bits(), b.to_bits()]).or_insert_with(|| f(a, b));
+    let mut grid = |us: &[f64], vs: &[f64]| -> Result<Vec<DVec3>> {
+        let mut f = |a: f64, b: f64| match known.entry([a.to_bits(), b.to_bits()]) {
+            Entry::Occupied(entry) => Ok(*entry.get()),
+            Entry::Vacant(entry) => Ok(*entry.insert(f(a, b)?)),
+        };
         us.iter().flat_map(|&a| vs.iter().map(move |&b| (a, b))).map(|(a, b)| f(a, b)).collect()
     };
     loop {
         let (ku, kv) = (u.knots()?, v.knots()?);
         let (cu, cv) = (Collocation::new(&ku)?, Collocation::new(&kv)?);
-        let mut poles = grid(cu.points(), cv.points());
+        let mut poles = grid(cu.points(), cv.points())?;
         Collocation::poles_tensor(&cu, &cv, &mut poles);
         let fitted = NurbsSurface::new(ku, kv, poles, None)?;
         // On a Greville line of one direction the error is that of the other direction alone.
-        let mut error = |us: &[f64], vs: &[f64]| -> Vec<f64> {
-            let pairs = fitted.points_on_grid(us, vs).into_iter().zip(grid(us, vs));
-            pairs.map(|(a, b)| (a - b).length()).collect()
+        let mut error = |us: &[f64], vs: &[f64]| -> Result<Vec<f64>> {
+            let pairs = fitted.points_on_grid(us, vs).into_iter().zip(grid(us, vs)?);
+            Ok(pairs.map(|(a, b)| (a - b).length()).collect())
         };
         let (us, vs) = (u.samples(), v.samples());
-        let (along_u, along_v) = (error(&us, cv.points()), error(cu.points(), &vs));
+        let (along_u, along_v) = (error(&us, cv.points())?, error(cu.points(), &vs)?);
         let worst = |errors: &mut dyn Iterator<Item = f64>| errors.fold(0.0, f64::max);
         let lines = along_u.chunks(SAMPLES.len() * cv.points().len());
         let error_u: Vec<f64> = lines.map(|e| worst(&mut e.iter().copied())).collect();
@@ -151,10 +175,12 @@ pub fn surface(
         let error_v: Vec<f64> = (0..vs.len() / SAMPLES.len()).map(of_span).collect();
         let largest = error_u.iter().chain(&error_v).copied().fold(0.0, f64::max);
         let (mu, mv) = (
-            Breaks::worst(&error_u, 0.5 * tolerance, limit),
-            Breaks::worst(&error_v, 0.5 * tolerance, limit),
+            Breaks::worst(&error_u, 0.5 * tolerance, limit.spans),
+            Breaks::worst(&error_v, 0.5 * tolerance, limit.spans),
         );
-        if !mu.iter().chain(&mv).any(|&m| m) {
+        let more = |marked: &[bool]| marked.iter().filter(|&&m| m).count();
+        let (nu, nv) = (more(&mu), more(&mv));
+        if nu + nv == 0 || (u.spans() + nu) * (v.spans() + nv) > limit.patches {
             return Ok((fitted, largest));
         }
         u.split(&mu);
@@ -168,16 +194,21 @@ mod tests {
 
     #[test]
     fn cylinder_keeps_its_angle_parameter() {
-        let f = |a: f64, z: f64| DVec3::new(50.0 * a.cos(), 50.0 * a.sin(), z);
+        let f = |a: f64, z: f64| Ok(DVec3::new(50.0 * a.cos(), 50.0 * a.sin(), z));
         for tolerance in [1e-3, 1e-5, 1e-7] {
             let full = std::f64::consts::TAU;
-            let (s, _) =
-                surface(f, Breaks::simple(5, &[0.0, full]), Breaks::simple(3, &[0.0, 30.0]), tolerance, 500)
-                    .unwrap();
+            let (s, _) = surface(
+                f,
+                Breaks::simple(5, &[0.0, full]),
+                Breaks::simple(3, &[0.0, 30.0]),
+                tolerance,
+                Finest::spans(500),
+            )
+            .unwrap();
             let mut worst = 0.0f64;
             for i in 0..=1000 {
                 let a = full * i as f64 / 1000.0;
-                worst = worst.max((s.point(a, 7.3) - f(a, 7.3)).length());
+                worst = worst.max((s.point(a, 7.3) - f(a, 7.3).unwrap()).length());
             }
             assert!(worst < 1.5 * tolerance, "asked {tolerance}, got {worst}");
             assert_eq!(s.knots_v().len(), 4, "a straight direction needs one span");

@@ -172,13 +172,19 @@ fn steepest(d: &SurfaceDerivatives, gradient: DVec2, stuck: [bool; 2]) -> DVec2 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ops::approximate::{Breaks, surface};
+    use crate::ops::approximate::{Breaks, Finest, surface};
 
     fn bowl() -> NurbsSurface {
-        let f = |u: f64, v: f64| DVec3::new(u, v, 0.1 * u * u - 0.05 * v * v * v);
-        surface(f, Breaks::simple(3, &[-2.0, 0.0, 2.0]), Breaks::simple(3, &[-2.0, 2.0]), 1e-12, 50)
-            .unwrap()
-            .0
+        let f = |u: f64, v: f64| Ok(DVec3::new(u, v, 0.1 * u * u - 0.05 * v * v * v));
+        surface(
+            f,
+            Breaks::simple(3, &[-2.0, 0.0, 2.0]),
+            Breaks::simple(3, &[-2.0, 2.0]),
+            1e-12,
+            Finest::spans(50),
+        )
+        .unwrap()
+        .0
     }
 
     #[test]

@@ -3,14 +3,15 @@
 //! The offset `S + d·n` is approximated in the parameters of the surface, over its knots and as many
 //! more as the tolerance asks for, with degrees 3 and 5, of which the one with fewer poles is kept.
 
-use super::approximate::{self, Breaks};
+use super::approximate::{self, Breaks, Finest};
 use crate::error::{Error, Result};
 use crate::nurbs::{Direction, KnotVector, NurbsSurface, Side, SurfaceDerivatives};
 use glam::DVec3;
-use std::sync::OnceLock;
 
-/// Spans along one direction at most.
-const SPANS: usize = 300;
+/// How fine an offset may become: enough for a blade to a nanometre, and a second of work.
+const FINEST: Finest = Finest { spans: 300, patches: 10_000 };
+/// Fits at most, each to a closer tolerance than the one before.
+const FITS: usize = 4;
 /// Places in each span at which bending and error are looked at.
 const PLACES: usize = 5;
 /// Normals that differ by more than this, in rad, make a kink.
@@ -42,16 +43,11 @@ pub fn offset(surface: &NurbsSurface, distance: f64, tolerance: f64) -> Result<O
     check_kinks(&surface)?;
     let (us, vs) = (places(surface.knots_u()), places(surface.knots_v()));
     check_folds(&surface, distance, &us, &vs)?;
-    let mut best: Option<OffsetSurface> = None;
-    for degree in [3, 5] {
-        let Ok(found) = approximated(&surface, distance, tolerance, degree) else { continue };
-        if best.as_ref().is_none_or(|b| found.surface.poles().len() < b.surface.poles().len()) {
-            best = Some(found);
-        }
-    }
-    match best {
-        Some(best) => Ok(best),
-        None => approximated(&surface, distance, tolerance, 5),
+    let [cubic, quintic] = [3, 5].map(|degree| approximated(&surface, distance, tolerance, degree));
+    match (cubic, quintic) {
+        (Ok(a), Ok(b)) => Ok(if b.surface.poles().len() < a.surface.poles().len() { b } else { a }),
+        (Ok(found), _) | (_, Ok(found)) => Ok(found),
+        (_, Err(error)) => Err(error),
     }
 }
 
@@ -175,40 +171,41 @@ fn approximated(
     tolerance: f64,
     degree: usize,
 ) -> Result<OffsetSurface> {
-    let failure = OnceLock::new();
     let point = |u: f64, v: f64| {
         let d = surface.derivatives(u, v);
-        match normal(surface, &d, u, v) {
-            Ok(normal) => d.s + normal * distance,
-            Err(error) => {
-                failure.get_or_init(|| error);
-                d.s
-            }
-        }
+        Ok(d.s + normal(surface, &d, u, v)? * distance)
     };
     let mut asked = 0.5 * tolerance;
     let mut deviation = f64::INFINITY;
-    for _ in 0..4 {
+    for _ in 0..FITS {
         let (u, v) = (breaks(surface.knots_u(), degree), breaks(surface.knots_v(), degree));
-        let (fitted, _) = approximate::surface(point, u, v, asked, SPANS)?;
-        let (us, vs) = (places(fitted.knots_u()), places(fitted.knots_v()));
-        let fit = fitted.points_on_grid(&us, &vs);
-        let errors =
-            fit.iter().enumerate().map(|(k, p)| p.distance(point(us[k / vs.len()], vs[k % vs.len()])));
-        deviation = errors.fold(0.0, f64::max);
-        if let Some(error) = failure.get() {
-            return Err(error.clone());
+        let (fitted, seen) = approximate::surface(point, u, v, asked, FINEST)?;
+        if seen > tolerance {
+            deviation = seen;
+            break;
         }
+        deviation = self::deviation(&fitted, point)?;
         if deviation <= tolerance {
             return Ok(OffsetSurface { surface: fitted, deviation_mm: deviation });
         }
         asked *= (0.5 * tolerance / deviation).max(0.1);
     }
+    let Finest { spans, patches } = FINEST;
     let why = format!(
-        "the offset by {distance} mm stays {deviation:e} mm off with {SPANS} spans a direction, more than \
-         {tolerance:e}: ask for less or split the surface"
+        "the offset by {distance} mm stays {deviation:e} mm off with {spans} spans a direction or {patches} in \
+         all, more than {tolerance:e}: ask for a coarser tolerance or offset parts of the surface"
     );
     Err(Error::Numerics { why })
+}
+
+/// The largest distance between a surface and points of equal parameters, as far as is looked at.
+fn deviation(fitted: &NurbsSurface, point: impl Fn(f64, f64) -> Result<DVec3>) -> Result<f64> {
+    let (us, vs) = (places(fitted.knots_u()), places(fitted.knots_v()));
+    let mut largest = 0.0f64;
+    for (k, p) in fitted.points_on_grid(&us, &vs).into_iter().enumerate() {
+        largest = largest.max(p.distance(point(us[k / vs.len()], vs[k % vs.len()])?));
+    }
+    Ok(largest)
 }
 
 #[cfg(test)]
