@@ -1,7 +1,7 @@
 //! Every call of the kernel with arbitrary arguments. Arrays are as long as the header asks for:
 //! all else about them is arbitrary.
 
-use super::meets::{cast_rays, meet_curves, offset_curve};
+use super::meets::{cast_rays, meet_curves, offset_curve, offset_surface};
 use super::source::Source;
 use super::surfaces::{
     evaluate_surface, make_surface, nearest_on_surface, reshape_surface, surfaces_of_curves,
@@ -411,7 +411,7 @@ pub fn read_table(table: *mut Table) {
 }
 
 /// All of them; those that make handles come more often.
-pub const CALLS: [Call; 23] = [
+pub const CALLS: [Call; 24] = [
     ("curve_new", make_curve),
     ("curve_new", make_curve),
     ("curve_evaluate", evaluate_curve),
@@ -435,4 +435,5 @@ pub const CALLS: [Call; 23] = [
     ("curve_intersect, curve_self_intersect", meet_curves),
     ("curve_ray, surface_ray", cast_rays),
     ("curve_offset", offset_curve),
+    ("surface_offset", offset_surface),
 ];

@@ -1,5 +1,4 @@
-//! Calls that find where shapes meet, and offsets of curves: those of surfaces have no bound of their
-//! time yet.
+//! Calls that find where shapes meet, and offsets.
 
 use super::calls::{Pool, read_table, tolerance};
 use super::source::Source;
@@ -55,5 +54,17 @@ pub fn offset_curve(source: &mut Source, pool: &mut Pool) -> i32 {
     };
     read_table(pieces);
     pool.keep_curve(source, out);
+    status
+}
+
+pub fn offset_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (surface, within) = (pool.surface(source), tolerance(source));
+    // Arbitrary surfaces bend sharply: larger distances would all be refused.
+    let distance = if source.once_in(2) { source.number() } else { 0.1 * source.unit() };
+    let (mut deviation, mut out) = (f64::NAN, null_mut());
+    let place = if source.once_in(4) { null_mut() } else { &raw mut deviation };
+    // SAFETY: the handle is alive or NULL.
+    let status = unsafe { bladesmith_surface_offset(surface, distance, within, place, &mut out) };
+    pool.keep_surface(source, out);
     status
 }
