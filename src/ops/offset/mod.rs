@@ -6,6 +6,7 @@
 //! where print asks for one point only and decides by nested self-intersections, which is wrong for
 //! global loops and for the ends of open curves.
 
+mod bend;
 mod chain;
 mod domain;
 mod fit;
