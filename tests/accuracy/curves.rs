@@ -2,7 +2,7 @@
 
 use super::exact;
 use super::wild::{ENDS, Ends, Random, curve, places};
-use bladesmith::nurbs::{CurveEvaluator, NurbsCurve, Point, Side};
+use bladesmith::nurbs::{CurveEvaluator, KnotVector, NurbsCurve, Point, Side};
 use glam::{DVec2, DVec3};
 
 /// The largest error of derivatives from order 0 on, in units of the last place times the condition.
@@ -70,5 +70,48 @@ fn the_ends_of_a_clamped_curve_are_its_poles() {
         let off = |p: DVec3, pole: DVec3| ((p - pole) / pole).abs().max_element() / f64::EPSILON;
         assert!(off(c.point(a), c.poles()[0]) <= 1.0, "degree {degree}: {}", c.point(a));
         assert!(off(c.point(b), c.poles()[c.poles().len() - 1]) <= 1.0, "degree {degree}: {}", c.point(b));
+    }
+}
+
+/// Where print compares with `t` instead of a knot, every function is no number.
+#[test]
+fn functions_of_the_printed_example_are_its_fractions() {
+    let knots = KnotVector::clamped(2, &[0.0, 0.5, 1.0]).expect("knots");
+    for (t, expected) in [
+        (0.0, [1.0, 0.0, 0.0, 0.0]),
+        (0.25, [0.25, 0.625, 0.125, 0.0]),
+        (0.5, [0.0, 0.5, 0.5, 0.0]),
+        (1.0, [0.0, 0.0, 0.0, 1.0]),
+    ] {
+        let mut all = [0.0; 4];
+        let first = knots.span(t) - 2;
+        let mut some = [0.0; 3];
+        knots.basis(first + 2, t, &mut some);
+        all[first..first + 3].copy_from_slice(&some);
+        assert_eq!(all, expected, "at {t}");
+    }
+}
+
+/// The hull holds a rational curve, too, as long as no weight is negative; such are refused.
+#[test]
+fn curves_stay_in_the_box_of_the_poles_of_their_span() {
+    let mut random = Random(9);
+    for degree in 1..=9 {
+        let c = curve::<DVec3>(&mut random, degree, ENDS[degree % 3], true);
+        for t in places(c.knots(), &[0.2, 0.5, 0.9]) {
+            let span = c.knots().span(t);
+            let poles = &c.poles()[span - degree..=span];
+            let (low, high) = poles.iter().fold((poles[0], poles[0]), |(a, b), p| (a.min(*p), b.max(*p)));
+            let rounding = 1e-14 * high.abs().max(low.abs());
+            let p = c.point(t);
+            let within = p.cmpge(low - rounding).all() && p.cmple(high + rounding).all();
+            assert!(within, "degree {degree} at {t}: {p} is not between {low} and {high}");
+        }
+        for wrong in [-1.0, 0.0] {
+            let mut weights = c.weights().expect("weights").to_vec();
+            weights[1] = wrong;
+            let why = NurbsCurve::new(c.knots().clone(), c.poles().to_vec(), Some(weights)).unwrap_err();
+            assert!(why.to_string().contains("weight 2 is"), "{why}");
+        }
     }
 }
