@@ -2,6 +2,8 @@
 //!
 //! Algorithms after Piegl and Tiller, *The NURBS Book* (2nd ed., 1997), cited by number.
 
+#[cfg(test)]
+mod accuracy;
 pub mod basis;
 pub mod conic;
 pub mod construct;
