@@ -5,11 +5,16 @@
 //! repetition and the file that holds the answers as little-endian doubles. What a library prepares
 //! before its first answer is timed as well; reading and writing are not.
 
-use bladesmith::nurbs::{KnotVector, NurbsSurface, SurfaceDerivatives, SurfaceEvaluator};
+use bladesmith::nurbs::{KnotVector, NurbsCurve, NurbsSurface, SurfaceDerivatives, SurfaceEvaluator};
+use bladesmith::ops::intersect::{curves, self_intersections};
 use bladesmith::ops::invert::{Nearest, SurfaceInverter};
+use bladesmith::ops::offset::{Offset, OffsetCurve};
 use glam::{DVec2, DVec3};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Calls of one repetition that are too short to be measured alone.
+const CALLS: usize = 10;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
@@ -23,7 +28,10 @@ fn main() -> Result<()> {
     match operation.as_str() {
         "eval" => bench.evaluate(),
         "project" => bench.project(),
-        other => Err(format!("operation {other} is not one of eval, project").into()),
+        "cci" => bench.crossings(),
+        "selfx" => bench.own_crossings(),
+        "offset" => bench.offsets(),
+        other => Err(format!("operation {other} is not one of eval, project, cci, selfx, offset").into()),
     }
 }
 
@@ -78,6 +86,69 @@ impl Bench {
         self.report(["project", name, &note], &times, &found, |f| f.at.to_array())
     }
 
+    /// Crossings of two plane curves, ten times in each repetition.
+    fn crossings(&self) -> Result<()> {
+        let [a, b] = [curve(&self.case.join("a.txt"))?, curve(&self.case.join("b.txt"))?];
+        let mut found = Vec::new();
+        let times = self.times(|| {
+            for _ in 0..CALLS {
+                found = curves(std::hint::black_box(&a), &b, 1e-9).expect("few places").crossings;
+            }
+        });
+        self.report_calls(
+            ["cci", "ours", "tolerance 1e-9, 10 calls per sample"],
+            CALLS,
+            &times,
+            &found,
+            |c| c.at,
+        )
+    }
+
+    /// Crossings of the untrimmed offset of a curve with itself, the making of it included.
+    fn own_crossings(&self) -> Result<()> {
+        let source = curve(&self.case.join("wavy.txt"))?;
+        let mut found = Vec::new();
+        let times = self.times(|| {
+            let raw = Offset::new(2.5, 1e-7).raw(std::hint::black_box(&source)).expect("an offset");
+            let own = |part: &OffsetCurve| {
+                let all = self_intersections(&part.curve, 1e-7).expect("few places").crossings;
+                all.into_iter().map(|c| c.at.map(|t| part.source_parameter(t))).collect::<Vec<_>>()
+            };
+            found = raw.iter().flat_map(own).collect();
+        });
+        let note = "offset as NURBS to 1e-7 in the time, its crossings within 1e-7";
+        self.report_calls(["selfx", "ours", note], 1, &times, &found, |at| *at)
+    }
+
+    /// Trimmed offsets of a closed section, positive distances outward, ten times in each repetition.
+    /// The answers are points along all curves.
+    fn offsets(&self) -> Result<()> {
+        let section = curve(&self.case.join("section.txt"))?;
+        let area: f64 = section.poles().windows(2).map(|w| w[0].perp_dot(w[1])).sum();
+        for outward in [1.0, 3.0, -1.5, -2.5] {
+            let offset = Offset::new(-outward * area.signum(), 1e-6);
+            let mut found = Vec::new();
+            let times = self.times(|| {
+                for _ in 0..CALLS {
+                    found = offset.trimmed(std::hint::black_box(&section)).expect("an offset");
+                }
+            });
+            let along = |part: &OffsetCurve| {
+                let (a, b) = part.curve.knots().domain();
+                let at = |k: usize| part.curve.point(a + (b - a) * k as f64 / 4000.0).to_array();
+                (0..=4000).flat_map(at).collect::<Vec<f64>>()
+            };
+            let (name, poles) = (format!("offset{outward:+}"), found.iter().map(|f| f.curve.poles().len()));
+            let note = format!(
+                "tolerance 1e-6, 10 calls per sample, {} curves of {} poles",
+                found.len(),
+                poles.sum::<usize>()
+            );
+            self.report_calls([&name, "ours", &note], CALLS, &times, &found, along)?;
+        }
+        Ok(())
+    }
+
     /// Wall and processor seconds of each repetition.
     fn times(&self, mut work: impl FnMut()) -> Vec<[f64; 2]> {
         let repetition = |_| {
@@ -88,10 +159,22 @@ impl Bench {
         (0..self.repetitions).map(repetition).collect()
     }
 
-    /// Writes the answers and prints the line.
+    /// As [`report_calls`](Self::report_calls), with one answer to a call.
     fn report<T, N: AsRef<[f64]>>(
         &self,
+        names: [&str; 3],
+        times: &[[f64; 2]],
+        answers: &[T],
+        numbers: impl Fn(&T) -> N,
+    ) -> Result<()> {
+        self.report_calls(names, answers.len(), times, answers, numbers)
+    }
+
+    /// Writes the answers and prints the line; a repetition has so many calls.
+    fn report_calls<T, N: AsRef<[f64]>>(
+        &self,
         [operation, name, note]: [&str; 3],
+        calls: usize,
         times: &[[f64; 2]],
         answers: &[T],
         numbers: impl Fn(&T) -> N,
@@ -103,7 +186,7 @@ impl Bench {
             .flat_map(|a| numbers(a).as_ref().iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>());
         std::fs::write(&file, bytes.collect::<Vec<u8>>())?;
         let line = serde_json::json!({
-            "peer": name, "op": operation, "case": case, "n": answers.len(), "out": file, "note": note,
+            "peer": name, "op": operation, "case": case, "n": calls, "out": file, "note": note,
             "secs": times.iter().map(|t| t[0]).collect::<Vec<f64>>(),
             "cpu": times.iter().map(|t| t[1]).collect::<Vec<f64>>(),
         });
@@ -136,6 +219,19 @@ fn surface(file: &Path) -> Result<NurbsSurface> {
     let weights = (rational == 1).then(|| poles.iter().map(|p| p[3]).collect());
     let poles = poles.iter().map(|&[x, y, z, _]| DVec3::new(x, y, z)).collect();
     Ok(NurbsSurface::new(KnotVector::new(p, u.to_vec())?, KnotVector::new(q, v.to_vec())?, poles, weights)?)
+}
+
+/// A plane curve as text: a word, a version, degree and number of poles, the knots, and a pole in
+/// each line.
+fn curve(file: &Path) -> Result<NurbsCurve<DVec2>> {
+    let text = std::fs::read_to_string(file).map_err(|e| format!("{}: {e}", file.display()))?;
+    let mut words = text.split_whitespace().skip(2);
+    let mut head = || words.next().ok_or("degree and number of poles are missing").map(str::parse::<usize>);
+    let (p, n) = (head()??, head()??);
+    let numbers = words.map(str::parse).collect::<std::result::Result<Vec<f64>, _>>()?;
+    let (knots, rest) = numbers.split_at_checked(n + p + 1).ok_or("knots are missing")?;
+    let poles = rest.as_chunks::<2>().0.iter().copied().map(DVec2::from).collect();
+    Ok(NurbsCurve::new(KnotVector::new(p, knots.to_vec())?, poles, None)?)
 }
 
 /// Seconds that this process has spent on processors.

@@ -67,7 +67,7 @@ trap 'rm -rf "$work"' EXIT
 list=$work/manifest
 install -d "$target"
 
-for header in bladesmith.h bladesmith.hpp core.hpp curve.hpp surface.hpp; do
+for header in bladesmith.h bladesmith.hpp core.hpp results.hpp curve.hpp fillet.hpp section.hpp surface.hpp; do
     put 644 "$root/include/bladesmith/$header" "include/bladesmith/$header"
 done
 # Beside what debuggers need the archive holds bitcode for Rust's linker: three quarters of it.

@@ -8,7 +8,7 @@ use std::process::Command;
 use bladesmith::ffi::MorphOptions;
 
 /// Sources of the header in the order in which it presents them.
-const SOURCES: [&str; 20] = [
+const SOURCES: [&str; 24] = [
     "status",
     "library",
     "progress",
@@ -24,11 +24,15 @@ const SOURCES: [&str; 20] = [
     "spline/curve_make",
     "spline/curve_fit",
     "spline/surface",
+    "spline/surfaces",
     "spline/surface_reshape",
     "spline/surface_make",
     "spline/nearest",
     "spline/intersect",
+    "spline/ray",
     "spline/offset",
+    "spline/fillet",
+    "spline/section",
 ];
 
 fn root() -> &'static Path {
@@ -94,7 +98,10 @@ fn c99_and_cpp17_take_the_headers_alone_and_twice() {
         ("bladesmith.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
         ("bladesmith.hpp", "cpp", "-std=c++20", ["g++", "clang++"]),
         ("core.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("results.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
         ("curve.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("fillet.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
+        ("section.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
         ("surface.hpp", "cpp", "-std=c++17", ["g++", "clang++"]),
     ] {
         let twice = format!("#include <bladesmith/{header}>\n").repeat(2) + "int unused;\n";
@@ -166,8 +173,8 @@ fn documented_functions(header: &str) -> Vec<(String, String)> {
 #[test]
 fn the_cpp_headers_cover_every_function() {
     let folder = root().join("include/bladesmith");
-    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("it is committed");
-    let cpp = ["bladesmith.hpp", "core.hpp", "curve.hpp", "surface.hpp"].map(read).concat();
+    let read = |name: &str| fs::read_to_string(folder.join(format!("{name}.hpp"))).expect("it is committed");
+    let cpp = ["bladesmith", "core", "results", "curve", "fillet", "section", "surface"].map(read).concat();
     for (_, declaration) in documented_functions(&generated()) {
         let name = declaration.split('(').next().unwrap_or_default().rsplit([' ', '*']).next();
         assert!(name.is_some_and(|name| cpp.contains(name)), "the headers for C++ do not use {name:?}");
@@ -177,7 +184,7 @@ fn the_cpp_headers_cover_every_function() {
 #[test]
 fn every_function_states_errors_and_where_it_applies_ownership_units_and_shapes() {
     let functions = documented_functions(&generated());
-    assert_eq!(functions.len(), 82, "functions with a comment: {functions:#?}");
+    assert_eq!(functions.len(), 103, "functions with a comment: {functions:#?}");
     for (comment, declaration) in functions {
         let pointers = declaration.contains('*');
         let arrays = declaration.contains("double *");

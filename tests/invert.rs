@@ -176,6 +176,19 @@ fn circle() -> NurbsCurve<DVec2> {
     NurbsCurve::new(KnotVector::new(2, flat).unwrap(), poles, Some(weights)).unwrap()
 }
 
+/// Newton's method for a root of the distance, which has none here, ends on a bound or alternates.
+#[test]
+fn the_foot_on_a_parabola_is_where_its_cubic_says() {
+    let knots = KnotVector::clamped(2, &[0.0, 1.0]).unwrap();
+    let poles = [(-1.0, 1.0), (0.0, -1.0), (1.0, 1.0)].map(DVec2::from).to_vec();
+    let found = CurveInverter::new(&NurbsCurve::new(knots, poles, None).unwrap())
+        .unwrap()
+        .nearest(DVec2::new(0.3, 1.0));
+    let x = 2.0 * found.at - 1.0;
+    assert!((found.at - 0.91282).abs() < 5e-6, "{found:?}");
+    assert!((2.0 * x * x * x - x - 0.3).abs() < 1e-12, "{found:?}");
+}
+
 #[test]
 fn ties_are_all_reported() {
     let parabola = NurbsCurve::new(

@@ -158,6 +158,8 @@ fn a_circle_smaller_than_the_distance_leaves_nothing_though_its_offset_has_no_lo
     for t in even(0.0, 1.0, 20) {
         let p = raw[0].curve.point(t);
         assert!((p.length() - 0.5).abs() < 4e-15 && quarter.point(t).dot(p) < 0.0, "{p}");
+        let away = Sampled::new(&quarter, 2000).distance(p);
+        assert!((0.70..0.93).contains(&away), "{p} is {away} away, not 1");
     }
     // The other side is an exact arc of radius 1.5.
     let outer = judge("quarter", &quarter, Offset::new(-1.0, 1e-6), 2000);
@@ -197,8 +199,8 @@ fn curvature_alone_makes_no_loop() {
     // The least radius is 0.5.
     let loops = sources(&judge("parabola", &wide, Offset::new(0.501, 1e-7), 4000));
     assert_eq!(loops.len(), 2, "{loops:?}");
-    let gap = loops[1][0] - loops[0][1];
-    assert!(gap > 0.0 && gap < 0.1, "a loop of {gap}");
+    let (gap, expected) = (loops[1][0] - loops[0][1], 0.5 * (4.0 * 0.501f64.powi(2) - 1.0).sqrt());
+    assert!((gap - expected).abs() < 1e-6, "a loop of {gap} where {expected} is cut");
     assert_eq!(sources(&judge("parabola", &wide, Offset::new(-0.6, 1e-7), 4000)).len(), 1);
     assert!(judge("parabola", &narrow, Offset::new(0.6, 1e-7), 4000).is_empty());
 }

@@ -15,11 +15,29 @@ mod installed;
 use installed::{Build, configure, data, install, lossy, prefix, root, run, scratch, succeed, valgrind};
 
 /// Programs that check themselves.
-const CHECKS: [&str; 5] = ["abi_errors", "spline_errors", "threads", "owners", "splines"];
+const CHECKS: [&str; 8] =
+    ["abi_errors", "spline_errors", "tool_errors", "threads", "spline_threads", "owners", "splines", "tools"];
 /// The examples of a morph.
 const EXAMPLES: [&str; 2] = ["morph_c", "morph_cpp"];
 /// The examples of the kernel, in C and in C++: they take no arguments and print the same.
 const KERNEL: [&str; 2] = ["curves", "surfaces"];
+/// Those in one language, each with lines that it prints.
+const FAMILIES: [(&str, &str, &[&str]); 6] = [
+    ("fitting", "c", &["interpolated  41 poles, points within 0.0000 mm", "least squares  5 poles"]),
+    ("intersections", "c", &["itself at (5.000000, 4.000000)", "ray 1 hits the circle after 13.000000 mm"]),
+    ("offsets", "c", &["centre (26.000000, 4.000000), angle 1.570796 rad", "offset by 6 mm: 38.0000 mm"]),
+    (
+        "reshaping",
+        "cpp",
+        &["cut and joined           degree 2,  7 poles, 50.000000000 mm", "nothing has moved"],
+    ),
+    ("nearest", "cpp", &["t = 0.750000: (0.000000, 2.000000), 2.000000 mm away", "t = 1.333333"]),
+    (
+        "sections",
+        "cpp",
+        &["offset wall of radius 9.0000 mm", "plane: 1 branch(es)", "its parameters lead to it"],
+    ),
+];
 
 fn on_the_bar(command: &mut Command) -> &mut Command {
     command.arg(data("bar.brep")).arg(data("bar.frd.gz"))
@@ -55,6 +73,9 @@ fn programs_are_clean_under_the_address_sanitizer() {
     for program in KERNEL.iter().flat_map(|name| both_languages(Build::Sanitized, name)) {
         succeed(&mut Command::new(program));
     }
+    for program in FAMILIES.iter().flat_map(|family| of_family(Build::Sanitized, family)) {
+        succeed(&mut Command::new(program));
+    }
 }
 
 #[test]
@@ -69,6 +90,26 @@ fn programs_are_clean_under_valgrind() {
     for [_, in_c, _, in_cpp] in KERNEL.map(|name| both_languages(Build::Plain, name)) {
         succeed(&mut valgrind(&in_c));
         succeed(&mut valgrind(&in_cpp));
+    }
+    for [_, linked] in FAMILIES.map(|family| of_family(Build::Plain, &family)) {
+        succeed(&mut valgrind(&linked));
+    }
+}
+
+/// An example of one language, with the library shared and static.
+fn of_family(build: Build, (name, language, _): &(&str, &str, &[&str])) -> [PathBuf; 2] {
+    build.programs(&format!("{name}_{language}"))
+}
+
+#[test]
+fn the_examples_of_families_print_what_is_so() {
+    for family in FAMILIES {
+        for program in of_family(Build::Plain, &family) {
+            let said = lossy(&succeed(&mut Command::new(program)).stdout);
+            for line in family.2 {
+                assert!(said.contains(line), "{} does not say '{line}' but\n{said}", family.0);
+            }
+        }
     }
 }
 
@@ -147,7 +188,8 @@ fn the_examples_say_what_is_wrong_at_once_and_leave_nothing_behind() {
 fn the_examples_are_short_and_build_as_they_stand() {
     for language in ["c", "cpp"] {
         let project = root().join("examples").join(language);
-        for name in ["morph"].iter().chain(&KERNEL) {
+        let families = FAMILIES.iter().filter(|family| family.1 == language).map(|family| &family.0);
+        for name in ["morph"].iter().chain(&KERNEL).chain(families) {
             let file = format!("{name}.{language}");
             let source = fs::read_to_string(project.join(&file)).expect("it is committed");
             assert!(source.lines().count() < 100, "{file} has {} lines", source.lines().count());

@@ -1,6 +1,8 @@
 //! The tests of this folder as one program: linking a program takes longer than compiling its tests.
 //! What is neither here nor in Cargo.toml is not run; a test of `layering.rs` looks for it.
 
+#[path = "accuracy/main.rs"]
+mod accuracy;
 mod brep;
 mod brep_malformed;
 mod ffi;

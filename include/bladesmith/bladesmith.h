@@ -152,10 +152,20 @@ typedef struct bladesmith_morphed bladesmith_morphed;
 typedef struct bladesmith_part bladesmith_part;
 
 /**
+ * Where a surface meets a plane or another surface. Opaque and unchanging.
+ */
+typedef struct bladesmith_section bladesmith_section;
+
+/**
  * A NURBS surface in space. Opaque and unchanging: any number of threads may use one handle at
  * once. Its lengths are in the unit of its poles, mm by convention.
  */
 typedef struct bladesmith_surface bladesmith_surface;
+
+/**
+ * Surfaces that a call made, as many as there are. Opaque and unchanging.
+ */
+typedef struct bladesmith_surfaces bladesmith_surfaces;
 
 /**
  * Rows of numbers that a call found, as many as there are. Opaque and unchanging.
@@ -927,6 +937,27 @@ int32_t bladesmith_curve_conic(uint32_t dimension,
                                bladesmith_curve **out);
 
 /**
+ * The closed curve that goes on smoothly over its seam: its knots are unclamped and repeat by the
+ * period.
+ *
+ * dimension: 2 or 3.
+ * degree: 1 to 25.
+ * breaks: [break_count] ascending, the domain from the first to the last.
+ * poles: [break_count - 1][dimension], each once.
+ * weights: [break_count - 1] positive weights, or NULL for a polynomial curve.
+ * Units: one length unit for all coordinates, mm by convention.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for arrays that make no curve.
+ */
+int32_t bladesmith_curve_periodic(uint32_t dimension,
+                                  uint32_t degree,
+                                  const double *breaks,
+                                  size_t break_count,
+                                  const double *poles,
+                                  const double *weights,
+                                  bladesmith_curve **out);
+
+/**
  * Parameters for points that a curve shall pass, ascending from 0 to 1.
  *
  * dimension: 2 or 3.
@@ -945,6 +976,22 @@ int32_t bladesmith_parameters(uint32_t dimension,
                               uint32_t spacing,
                               double factor,
                               double *out);
+
+/**
+ * Clamped knots for a curve through points: inner ones are means of neighbouring parameters, as
+ * bladesmith_curve_interpolate() takes them by itself.
+ *
+ * degree: 1 to 25.
+ * parameters: [count] ascending, more than degree.
+ * out: [count + degree + 1].
+ * Units: those of the parameter.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for too few or descending parameters.
+ */
+int32_t bladesmith_averaged_knots(uint32_t degree,
+                                  const double *parameters,
+                                  size_t count,
+                                  double *out);
 
 /**
  * The curve of a degree that passes points, or has derivatives, at parameters.
@@ -1131,6 +1178,25 @@ int32_t bladesmith_surface_evaluate(const bladesmith_surface *surface,
                                     double *out);
 
 /**
+ * Points and derivatives of a surface on a grid, faster than one by one.
+ *
+ * u, v: [count_u] and [count_v] parameters, finite. Outside the domain the end spans are continued.
+ * order: highest total order of derivatives, 0 to 2.
+ * out: [count_u][count_v][(order + 1) * (order + 2) / 2][3]: as bladesmith_surface_evaluate(), v
+ * fastest.
+ * Units: mm, and mm per parameter to the power of the order.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surface_evaluate_grid(const bladesmith_surface *surface,
+                                         const double *u,
+                                         size_t count_u,
+                                         const double *v,
+                                         size_t count_v,
+                                         uint32_t order,
+                                         double *out);
+
+/**
  * Normals and principal curvatures of a surface. Any of the outputs may be NULL; where the surface
  * has no normal all are NaN.
  *
@@ -1157,6 +1223,42 @@ int32_t bladesmith_surface_curvatures(const bladesmith_surface *surface,
  * Errors: none.
  */
 void bladesmith_surface_free(bladesmith_surface *surface);
+
+/**
+ * The Bézier patches of a surface, each over the spans it came from, those along v next to each
+ * other.
+ *
+ * Owner: `*out` is the caller's, for bladesmith_surfaces_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for surfaces that jump.
+ */
+int32_t bladesmith_surface_bezier(const bladesmith_surface *surface, bladesmith_surfaces **out);
+
+/**
+ * Number of surfaces.
+ *
+ * Owner: the caller gives the place.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_surfaces_count(const bladesmith_surfaces *surfaces, size_t *count);
+
+/**
+ * One of the surfaces, as a handle of its own.
+ *
+ * index: from 0.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for an index that is not there.
+ */
+int32_t bladesmith_surfaces_get(const bladesmith_surfaces *surfaces,
+                                size_t index,
+                                bladesmith_surface **out);
+
+/**
+ * Frees the list; NULL is fine. Surfaces taken from it stay. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_surfaces_free(bladesmith_surfaces *surfaces);
 
 /**
  * The same surface with knots inserted along a direction, as bladesmith_curve_refine().
@@ -1260,6 +1362,20 @@ int32_t bladesmith_surface_reverse(const bladesmith_surface *surface,
  * Errors: BLADESMITH_STATUS_ARGUMENT.
  */
 int32_t bladesmith_surface_swap(const bladesmith_surface *surface, bladesmith_surface **out);
+
+/**
+ * The same surface over another domain along a direction.
+ *
+ * direction: 0 for u, 1 for v.
+ * from, to: ascending.
+ * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for an empty domain.
+ */
+int32_t bladesmith_surface_over(const bladesmith_surface *surface,
+                                uint32_t direction,
+                                double from,
+                                double to,
+                                bladesmith_surface **out);
 
 /**
  * The same surface with the end knots of both directions repeated degree + 1 times.
@@ -1506,6 +1622,51 @@ int32_t bladesmith_surface_ray(const bladesmith_surface *surface,
                                bladesmith_table **out);
 
 /**
+ * Where each of many rays first comes nearer to a curve than a tolerance, as the first row of
+ * bladesmith_curve_ray(). Any of the outputs may be NULL; where a ray misses the curve all are NaN.
+ *
+ * origins, directions: [count][dimension] of the curve; directions of any length but 0.
+ * tolerance: above 0, and small against the curve.
+ * lengths: [count] from the origins.
+ * t: [count] parameters.
+ * points: [count][dimension] of the curve.
+ * Units: mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: as there.
+ */
+int32_t bladesmith_curve_first_hits(const bladesmith_curve *curve,
+                                    const double *origins,
+                                    const double *directions,
+                                    size_t count,
+                                    double tolerance,
+                                    double *lengths,
+                                    double *t,
+                                    double *points);
+
+/**
+ * Where each of many rays first comes nearer to a surface than a tolerance, as the first row of
+ * bladesmith_surface_ray(). The first call on a surface prepares it: later ones are faster. Any of
+ * the outputs may be NULL; where a ray misses the surface all are NaN.
+ *
+ * origins, directions: [count][3]; directions of any length but 0.
+ * tolerance: above 0, and small against the surface.
+ * lengths: [count] from the origins.
+ * uv: [count][2] parameters.
+ * points: [count][3] of the surface.
+ * Units: mm.
+ * Owner: the caller gives the arrays; written only on success.
+ * Errors: as there.
+ */
+int32_t bladesmith_surface_first_hits(const bladesmith_surface *surface,
+                                      const double *origins,
+                                      const double *directions,
+                                      size_t count,
+                                      double tolerance,
+                                      double *lengths,
+                                      double *uv,
+                                      double *points);
+
+/**
  * The points at a distance from a curve in the plane, on one side of it, that are nowhere nearer to
  * it, as curves that run as it does: several, one, or none where nothing is left.
  *
@@ -1530,6 +1691,42 @@ int32_t bladesmith_curve_offset(const bladesmith_curve *curve,
                                 bladesmith_table **pieces);
 
 /**
+ * The whole offset of a curve in the plane, loops and all: nothing is trimmed, but curves end at
+ * inward corners.
+ *
+ * distance, tolerance, limit, curves, pieces: as bladesmith_curve_offset() [1].
+ * Units: mm.
+ * Owner: as there; written only on success.
+ * Errors: as there.
+ */
+int32_t bladesmith_curve_offset_raw(const bladesmith_curve *curve,
+                                    double distance,
+                                    double tolerance,
+                                    double limit,
+                                    bladesmith_curves **curves,
+                                    bladesmith_table **pieces);
+
+/**
+ * Parameters of a curve mapped to those that have a point in its offset: each part that is kept
+ * takes the domain up to the middle of the gaps beside it, evenly.
+ *
+ * pieces: [piece_count][5] the rows of the table of bladesmith_curve_offset() for this curve, at
+ * least one.
+ * t: [count] parameters of the curve, finite; beyond the domain as its ends.
+ * out: [count] parameters of the curve.
+ * Units: those of the parameter.
+ * Owner: the caller gives the arrays; out is written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for pieces that leave the curve's domain, and where nothing is
+ * kept.
+ */
+int32_t bladesmith_curve_offset_map(const bladesmith_curve *curve,
+                                    const double *pieces,
+                                    size_t piece_count,
+                                    const double *t,
+                                    size_t count,
+                                    double *out);
+
+/**
  * The surface at a distance along the normals S_u x S_v, over the same domain.
  *
  * distance: negative for the other side.
@@ -1546,6 +1743,163 @@ int32_t bladesmith_surface_offset(const bladesmith_surface *surface,
                                   double tolerance,
                                   double *deviation,
                                   bladesmith_surface **out);
+
+/**
+ * All circular arcs of a radius that are tangent to two curves in the plane, on either side of
+ * each, whose circle cuts into neither of them.
+ *
+ * other: another curve in the plane.
+ * tolerance: by how much a circle may cut in; above 0 and below the radius.
+ * curves: what the table names.
+ * fillets: a table with the columns x, y, t, s, side, other_side, angle, first, arc, second: the
+ * centre; the parameters of the points of contact on curve and other; 1 where the centre is to the
+ * left of each and -1 to the right; the angle of the arc from curve to other, positive to the left;
+ * and the indices in curves of what is left of curve, of the arc, and of what is left of other, or
+ * -1 where nothing is. All of them run over [0, 1], curve and other as before.
+ * Units: mm; angle rad.
+ * Owner: `*curves` is the caller's, for bladesmith_curves_free(), and `*fillets`, for
+ * bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for curves in space; BLADESMITH_STATUS_SPLINE for curves
+ * that jump; BLADESMITH_STATUS_NUMERICS for curves that stand still.
+ */
+int32_t bladesmith_curve_fillets(const bladesmith_curve *curve,
+                                 const bladesmith_curve *other,
+                                 double radius,
+                                 double tolerance,
+                                 bladesmith_curves **curves,
+                                 bladesmith_table **fillets);
+
+/**
+ * One fillet of those of bladesmith_curve_fillets(), or none where there is none that fits.
+ *
+ * near: [2] where its centre shall be nearest to; or NULL for the one that rounds the corner at
+ * which an end of curve meets an end of other.
+ * curves, fillets: as there, with one row or none.
+ * Units: mm; angle rad.
+ * Owner: `*curves` is the caller's, for bladesmith_curves_free(), and `*fillets`, for
+ * bladesmith_table_free(); written only on success.
+ * Errors: as there; BLADESMITH_STATUS_ARGUMENT also where no ends meet and near is NULL.
+ */
+int32_t bladesmith_curve_fillet(const bladesmith_curve *curve,
+                                const bladesmith_curve *other,
+                                double radius,
+                                double tolerance,
+                                const double *near,
+                                bladesmith_curves **curves,
+                                bladesmith_table **fillets);
+
+/**
+ * The intersection of a surface with a plane.
+ *
+ * origin, normal: [3] a point of the plane and its direction, of any length but 0.
+ * tolerance: how far results may be from both; above 0.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_section_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for a tolerance below what rounding allows;
+ * BLADESMITH_STATUS_SPLINE for surfaces that jump; BLADESMITH_STATUS_NUMERICS for a contact too close
+ * to be followed.
+ */
+int32_t bladesmith_surface_section(const bladesmith_surface *surface,
+                                   const double *origin,
+                                   const double *normal,
+                                   double tolerance,
+                                   bladesmith_section **out);
+
+/**
+ * The intersection of two surfaces.
+ *
+ * other: another surface.
+ * tolerance: how far results may be from both; above 0.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_section_free(); written only on success.
+ * Errors: as bladesmith_surface_section().
+ */
+int32_t bladesmith_surface_intersect(const bladesmith_surface *surface,
+                                     const bladesmith_surface *other,
+                                     double tolerance,
+                                     bladesmith_section **out);
+
+/**
+ * The curves of an intersection: branches that end at borders, seams and places where others cross.
+ *
+ * curves: each branch in space, over its length.
+ * first, second: its parameters on the surface, and on the other surface or the plane, as curves in
+ * the plane over the same parameter; in a plane as bladesmith_section_axes() tells.
+ * branches: a table with the columns closed, touching, deviation: 1 or 0 whether the end is the
+ * start, and whether the surfaces touch along it rather than cross; and how far curves and
+ * parameters were seen to be from the true branch.
+ * Units: mm.
+ * Owner: the three lists are the caller's, for bladesmith_curves_free(), and the table, for
+ * bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_section_branches(const bladesmith_section *section,
+                                    bladesmith_curves **curves,
+                                    bladesmith_curves **first,
+                                    bladesmith_curves **second,
+                                    bladesmith_table **branches);
+
+/**
+ * What else an intersection holds.
+ *
+ * touching: a table with the columns x, y, z, u, v, s, t, gap, crossing of points in which the
+ * tangent planes agree: (u, v) on the surface, (s, t) on the other or the plane, how far both are
+ * apart, and 1 where two branches cross there or 0 where it is a single point.
+ * overlaps: a table with the columns u0, v0, u1, v1: corners of rectangles of the surface's
+ * parameters over which both are one.
+ * uncertain: a table with the columns u, v: parameters of the surface around which the contact is
+ * too close to decide, or where a branch could not be followed to its end.
+ * Units: mm.
+ * Owner: the tables are the caller's, for bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT.
+ */
+int32_t bladesmith_section_contacts(const bladesmith_section *section,
+                                    bladesmith_table **touching,
+                                    bladesmith_table **overlaps,
+                                    bladesmith_table **uncertain);
+
+/**
+ * The axes to which parameters on the plane of an intersection refer.
+ *
+ * out: [3][3] the origin and two unit vectors: (s, t) is the point origin + s x + t y.
+ * Units: origin mm.
+ * Owner: the caller gives the array; written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for an intersection of two surfaces.
+ */
+int32_t bladesmith_section_axes(const bladesmith_section *section, double *out);
+
+/**
+ * Frees an intersection; NULL is fine. Lists and tables taken from it stay. No call may be using it.
+ *
+ * Owner: the library again; the handle must not be used any more.
+ * Errors: none.
+ */
+void bladesmith_section_free(bladesmith_section *section);
+
+/**
+ * A curve in space projected onto a surface: to the nearest points, or along a direction.
+ *
+ * direction: [3] of any length but 0: all points of the surface on lines along it through the curve,
+ * each part over its length. Or NULL: the nearest points where they are the feet of perpendiculars,
+ * over the parameter of the curve; one part for each stretch over which they move without leap.
+ * tolerance: how far parts may be from the true projection; above 0.
+ * curves: the parts in space.
+ * parameters: their parameters on the surface, as curves in the plane over the same parameter.
+ * deviations: a table with the column deviation: how far each was seen to be.
+ * Units: mm.
+ * Owner: both lists are the caller's, for bladesmith_curves_free(), and the table, for
+ * bladesmith_table_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT, also for a curve in the plane or along the direction;
+ * BLADESMITH_STATUS_SPLINE for shapes that jump; BLADESMITH_STATUS_NUMERICS where the tolerance is not
+ * met, or lines touch the surface too closely.
+ */
+int32_t bladesmith_surface_project(const bladesmith_surface *surface,
+                                   const bladesmith_curve *curve,
+                                   const double *direction,
+                                   double tolerance,
+                                   bladesmith_curves **curves,
+                                   bladesmith_curves **parameters,
+                                   bladesmith_table **deviations);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -14,6 +14,7 @@
 #define BLADESMITH_HPP
 
 #include <bladesmith/core.hpp>
+#include <bladesmith/fillet.hpp>
 #include <bladesmith/surface.hpp>
 
 #include <cstddef>

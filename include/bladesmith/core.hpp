@@ -97,6 +97,9 @@ protected:
         handle_.reset(made);
     }
 
+    /** Takes a handle that a call gave out beside others. */
+    explicit Handle(T *made) noexcept : handle_(made) {}
+
     /** The text that `call(handle, buffer, capacity, length)` gives. */
     template <class Call> std::string text(Call call) const
     {

@@ -8,40 +8,11 @@
 #ifndef BLADESMITH_CURVE_HPP
 #define BLADESMITH_CURVE_HPP
 
-#include <bladesmith/core.hpp>
+#include <bladesmith/results.hpp>
 
 #include <array>
 
 namespace bladesmith {
-
-/** Rows of numbers that a search found. */
-struct Table {
-    std::size_t columns = 0;
-    /** [rows][columns]. */
-    std::vector<double> values;
-
-    std::size_t rows() const noexcept { return columns == 0 ? 0 : values.size() / columns; }
-    double operator()(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
-};
-
-/** Nearest points: [n] or [n][2] parameters, [n][dimension] points, [n] distances. */
-struct Nearest {
-    std::vector<double> parameters, feet, distances;
-};
-
-/** What reshaping within a tolerance gives: the new shape, and a bound of how far it moved. */
-template <class T> struct Moved {
-    T shape;
-    double by;
-};
-
-/** Where curves meet. */
-struct Intersections {
-    /** Rows t, s, x, y, z, distance, tangential (0 or 1). */
-    Table crossings;
-    /** Rows t0, t1, s0, s1 of stretches along which both are one. */
-    Table overlaps;
-};
 
 class Curve;
 
@@ -53,24 +24,10 @@ struct CurveOffset {
 
 namespace detail {
 
-class OwnedTable : public Handle<bladesmith_table, bladesmith_table_free> {
-public:
-    template <class Make> explicit OwnedTable(Make make) : Handle(make) {}
-
-    Table values() const
-    {
-        std::size_t rows = 0;
-        Table table;
-        check(bladesmith_table_size(get(), &rows, &table.columns));
-        table.values.resize(rows * table.columns);
-        check(bladesmith_table_data(get(), rows, table.values.data()));
-        return table;
-    }
-};
-
 class OwnedCurves : public Handle<bladesmith_curves, bladesmith_curves_free> {
 public:
     template <class Make> explicit OwnedCurves(Make make) : Handle(make) {}
+    explicit OwnedCurves(bladesmith_curves *curves) noexcept : Handle(curves) {}
 
     std::vector<Curve> all() const;
 };
@@ -90,6 +47,20 @@ public:
                                           weights.size() > 0 ? weights.data() : nullptr, n, out);
           })
     {
+    }
+
+    /** The closed curve, smooth over its seam, with poles [breaks - 1][dimension], each once. */
+    static Curve periodic(std::uint32_t dimension, std::uint32_t degree, View<double> breaks, View<double> poles,
+                          View<double> weights = {})
+    {
+        const std::size_t n = breaks.size() > 0 ? breaks.size() - 1 : 0;
+        detail::require(poles, dimension * n, "poles");
+        if (weights.size() > 0)
+            detail::require(weights, n, "weights");
+        return made([&](auto out) {
+            return bladesmith_curve_periodic(dimension, degree, breaks.data(), breaks.size(), poles.data(),
+                                             weights.size() > 0 ? weights.data() : nullptr, out);
+        });
     }
 
     /** The arc centre + x cos a + y sin a for angles (rad) from one to another. */
@@ -198,6 +169,14 @@ public:
     /** [n], all 1 for a polynomial curve. */
     std::vector<double> weights() const { return std::move(data()[2]); }
 
+    /** First and last parameter. */
+    std::array<double, 2> domain() const
+    {
+        const auto all = knots();
+        const std::uint32_t p = degree();
+        return {all[p], all[all.size() - 1 - p]};
+    }
+
     /** [n][order + 1][dimension] at t [n]; `below`: from smaller parameters where derivatives jump. */
     std::vector<double> evaluate(View<double> t, std::uint32_t order = 0, bool below = false) const
     {
@@ -226,6 +205,9 @@ public:
         detail::check(bladesmith_curve_lengths(get(), tolerance, t.data(), t.size(), out.data()));
         return out;
     }
+
+    /** The whole arc length, to a tolerance in mm. */
+    double length(double tolerance = 1e-9) const { return lengths(std::array{domain()[1]}, tolerance).front(); }
 
     /** Parameters at arc lengths from the start. */
     std::vector<double> at_lengths(View<double> lengths, double tolerance = 1e-9) const
@@ -353,18 +335,37 @@ public:
                }).values();
     }
 
+    /** Where rays with origins and directions [n][dimension] first meet it. */
+    FirstHits first_hits(View<double> origins, View<double> directions, double tolerance) const
+    {
+        const std::size_t n = detail::points_in(origins, dimension(), "origins");
+        detail::require(directions, origins.size(), "directions");
+        FirstHits out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(origins.size())};
+        detail::check(bladesmith_curve_first_hits(get(), origins.data(), directions.data(), n, tolerance, out.lengths.data(),
+                                                  out.parameters.data(), out.points.data()));
+        return out;
+    }
+
     /** The trimmed offset; around outward corners arcs, or lines up to `limit` times the distance. */
     CurveOffset offset(double distance, double tolerance, double limit = 0.0) const
     {
-        bladesmith_curves *curves = nullptr;
-        const detail::OwnedTable pieces([&](bladesmith_table **out) {
-            return bladesmith_curve_offset(get(), distance, tolerance, limit, &curves, out);
-        });
-        const detail::OwnedCurves owned([&](bladesmith_curves **out) {
-            *out = curves;
-            return BLADESMITH_STATUS_OK;
-        });
-        return {owned.all(), pieces.values()};
+        return moved(bladesmith_curve_offset, distance, tolerance, limit);
+    }
+
+    /** The whole offset, loops and all. */
+    CurveOffset offset_raw(double distance, double tolerance, double limit = 0.0) const
+    {
+        return moved(bladesmith_curve_offset_raw, distance, tolerance, limit);
+    }
+
+    /** Parameters mapped to those that have a point in an offset, by its pieces. */
+    std::vector<double> offset_map(const Table &pieces, View<double> t) const
+    {
+        if (pieces.columns != 5)
+            detail::refuse("pieces needs the 5 columns of an offset");
+        std::vector<double> out(t.size());
+        detail::check(bladesmith_curve_offset_map(get(), pieces.values.data(), pieces.rows(), t.data(), t.size(), out.data()));
+        return out;
     }
 
 private:
@@ -403,13 +404,20 @@ private:
 
     template <class Call> static Intersections intersections(Call call)
     {
-        bladesmith_table *overlaps = nullptr;
-        const detail::OwnedTable crossings([&](bladesmith_table **out) { return call(out, &overlaps); });
-        const detail::OwnedTable owned([&](bladesmith_table **out) {
-            *out = overlaps;
-            return BLADESMITH_STATUS_OK;
-        });
-        return {crossings.values(), owned.values()};
+        bladesmith_table *crossings = nullptr, *overlaps = nullptr;
+        detail::check(call(&crossings, &overlaps));
+        const detail::OwnedTable points(crossings), stretches(overlaps);
+        return {points.values(), stretches.values()};
+    }
+
+    template <class Call> CurveOffset moved(Call call, double distance, double tolerance, double limit) const
+    {
+        bladesmith_curves *curves = nullptr;
+        bladesmith_table *pieces = nullptr;
+        detail::check(call(get(), distance, tolerance, limit, &curves, &pieces));
+        const detail::OwnedCurves list(curves);
+        const detail::OwnedTable table(pieces);
+        return {list.all(), table.values()};
     }
 
     Size size() const
@@ -446,6 +454,14 @@ inline std::vector<double> parameters(std::uint32_t dimension, View<double> poin
 {
     std::vector<double> out(detail::points_in(points, dimension == 2 ? 2 : 3, "points"));
     detail::check(bladesmith_parameters(dimension, points.data(), out.size(), spacing, factor, out.data()));
+    return out;
+}
+
+/** Clamped knots for a curve through points at ascending parameters: means of neighbours. */
+inline std::vector<double> averaged_knots(std::uint32_t degree, View<double> parameters)
+{
+    std::vector<double> out(parameters.size() + degree + 1);
+    detail::check(bladesmith_averaged_knots(degree, parameters.data(), parameters.size(), out.data()));
     return out;
 }
 

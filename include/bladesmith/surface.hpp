@@ -6,9 +6,22 @@
 #ifndef BLADESMITH_SURFACE_HPP
 #define BLADESMITH_SURFACE_HPP
 
-#include <bladesmith/curve.hpp>
+#include <bladesmith/section.hpp>
 
 namespace bladesmith {
+
+class Surface;
+
+namespace detail {
+
+class OwnedSurfaces : public Handle<bladesmith_surfaces, bladesmith_surfaces_free> {
+public:
+    template <class Make> explicit OwnedSurfaces(Make make) : Handle(make) {}
+
+    std::vector<Surface> all() const;
+};
+
+} // namespace detail
 
 /** Direction of a surface's parameter. */
 enum class Direction : std::uint32_t { u = 0, v = 1 };
@@ -76,6 +89,14 @@ public:
         return out;
     }
 
+    /** As evaluate() on the grid u x v, v fastest; the order is at most 2. */
+    std::vector<double> evaluate_grid(View<double> u, View<double> v, std::uint32_t order = 0) const
+    {
+        std::vector<double> out(u.size() * v.size() * (order + 1) * (order + 2) / 2 * 3);
+        detail::check(bladesmith_surface_evaluate_grid(get(), u.data(), u.size(), v.data(), v.size(), order, out.data()));
+        return out;
+    }
+
     /** Unit normals [n][3], principal curvatures [n][2], ascending, and directions [n][2][3]. */
     struct Curvatures {
         std::vector<double> normals, curvatures, directions;
@@ -128,6 +149,18 @@ public:
         return made([&](auto out) { return bladesmith_surface_reverse(get(), number(direction), out); });
     }
 
+    /** Over another domain along a direction. */
+    Surface over(Direction direction, double from, double to) const
+    {
+        return made([&](auto out) { return bladesmith_surface_over(get(), number(direction), from, to, out); });
+    }
+
+    /** Between neighbouring knots, those along v next to each other. */
+    std::vector<Surface> bezier_patches() const
+    {
+        return detail::OwnedSurfaces([&](bladesmith_surfaces **out) { return bladesmith_surface_bezier(get(), out); }).all();
+    }
+
     /** With u and v exchanged. */
     Surface swapped() const
     {
@@ -177,6 +210,45 @@ public:
                }).values();
     }
 
+    /** Where rays with origins and directions [n][3] first meet it; parameters are [n][2]. */
+    FirstHits first_hits(View<double> origins, View<double> directions, double tolerance) const
+    {
+        const std::size_t n = detail::points_in(origins, 3, "origins");
+        detail::require(directions, origins.size(), "directions");
+        FirstHits out{std::vector<double>(n), std::vector<double>(2 * n), std::vector<double>(3 * n)};
+        detail::check(bladesmith_surface_first_hits(get(), origins.data(), directions.data(), n, tolerance, out.lengths.data(),
+                                                    out.parameters.data(), out.points.data()));
+        return out;
+    }
+
+    /** Where it meets the plane through a point across a direction. */
+    Section section(const std::array<double, 3> &origin, const std::array<double, 3> &normal, double tolerance) const
+    {
+        return detail::OwnedSection([&](bladesmith_section **out) {
+                   return bladesmith_surface_section(get(), origin.data(), normal.data(), tolerance, out);
+               }).all_in_plane();
+    }
+
+    /** Where it meets another surface. */
+    Section intersect(const Surface &other, double tolerance) const
+    {
+        return detail::OwnedSection([&](bladesmith_section **out) {
+                   return bladesmith_surface_intersect(get(), other.get(), tolerance, out);
+               }).all();
+    }
+
+    /** A curve in space projected to its nearest points. */
+    std::vector<Projection> project(const Curve &curve, double tolerance) const
+    {
+        return projected(curve, nullptr, tolerance);
+    }
+
+    /** A curve in space projected along a direction. */
+    std::vector<Projection> project(const Curve &curve, const std::array<double, 3> &direction, double tolerance) const
+    {
+        return projected(curve, direction.data(), tolerance);
+    }
+
     /** The offset along the normals, and how far it is from the true one at equal parameters. */
     Moved<Surface> offset(double distance, double tolerance) const
     {
@@ -187,6 +259,7 @@ public:
 
 private:
     using Handle::Handle;
+    friend class detail::OwnedSurfaces;
 
     struct Size {
         std::array<std::uint32_t, 2> degrees{};
@@ -200,6 +273,21 @@ private:
     }
 
     static std::uint32_t number(Direction direction) { return static_cast<std::uint32_t>(direction); }
+
+    std::vector<Projection> projected(const Curve &curve, const double *direction, double tolerance) const
+    {
+        bladesmith_curves *curves = nullptr, *parameters = nullptr;
+        bladesmith_table *deviations = nullptr;
+        detail::check(bladesmith_surface_project(get(), curve.get(), direction, tolerance, &curves, &parameters, &deviations));
+        const detail::OwnedCurves in_space(curves), on_surface(parameters);
+        const detail::OwnedTable table(deviations);
+        std::vector<Curve> x = in_space.all(), uv = on_surface.all();
+        const Table off = table.values();
+        std::vector<Projection> parts;
+        for (std::size_t i = 0; i < x.size(); i++)
+            parts.push_back({std::move(x[i]), std::move(uv[i]), off(i, 0)});
+        return parts;
+    }
 
     Size size() const
     {
@@ -220,6 +308,16 @@ private:
         return out;
     }
 };
+
+inline std::vector<Surface> detail::OwnedSurfaces::all() const
+{
+    std::size_t count = 0;
+    check(bladesmith_surfaces_count(get(), &count));
+    std::vector<Surface> surfaces;
+    for (std::size_t i = 0; i < count; i++)
+        surfaces.push_back(Surface([&](bladesmith_surface **out) { return bladesmith_surfaces_get(get(), i, out); }));
+    return surfaces;
+}
 
 } // namespace bladesmith
 

@@ -1,7 +1,8 @@
 //! Many points of one curve, as [`super::evaluator`] does those of a surface.
 
 use super::curve::{NurbsCurve, Point};
-use super::evaluator::{BLOCK, FOURS, nearest_to_zero, weight};
+use super::divided::{self, Net};
+use super::evaluator::{BLOCK, FOURS, weight};
 use super::span_table::{Functions, SpanTable, WIDE};
 use super::wide::{self, Four, Work};
 
@@ -11,10 +12,9 @@ pub struct CurveEvaluator<'a, P: Point> {
     curve: &'a NurbsCurve<P>,
     /// None for degrees that the span table does not carry.
     spans: Option<SpanTable>,
-    /// Coordinates and weights.
-    poles: Vec<[f64; 4]>,
-    /// By the first pole of a span, what derivatives are summed over differences from.
-    origins: Vec<[f64; 4]>,
+    net: Net,
+    /// The poles of derivatives.
+    derived: Vec<[[f64; 4]; 2]>,
 }
 
 impl<'a, P: Point> CurveEvaluator<'a, P> {
@@ -24,9 +24,9 @@ impl<'a, P: Point> CurveEvaluator<'a, P> {
             let [x, y, z] = p.coordinates();
             [x, y, z, curve.weights().map_or(0.0, |w| w[i])]
         };
-        let poles: Vec<_> = curve.poles().iter().enumerate().map(pole).collect();
-        let origins = nearest_to_zero(&poles, curve.knots().degree() + 1, 1);
-        Self { curve, spans: SpanTable::new(curve.knots()), poles, origins }
+        let net = Net::new(curve.poles().iter().enumerate().map(pole).collect());
+        let derived = divided::of_curve(&net, curve.knots());
+        Self { curve, spans: SpanTable::new(curve.knots()), net, derived }
     }
 
     /// The points at the parameters.
@@ -86,7 +86,7 @@ impl<P: Point, const K: usize> Work for Batch<'_, P, K> {
 impl<P: Point, const K: usize> Batch<'_, P, K> {
     #[inline(always)]
     fn blocks<F: Four, const RATIONAL: bool>(self) {
-        let CurveEvaluator { curve, poles, origins, .. } = self.evaluator;
+        let CurveEvaluator { curve, net, derived, .. } = self.evaluator;
         let order = curve.knots().degree() + 1;
         let mut n = [Functions::<K>::NONE; FOURS];
         for (ts, out) in self.parameters.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
@@ -98,8 +98,10 @@ impl<P: Point, const K: usize> Batch<'_, P, K> {
             for (k, out) in out.iter_mut().enumerate().take(ts.len()) {
                 let functions = &n[k / 4];
                 let first = functions.first[k % 4];
-                let poles = &poles[first..first + order];
-                let jet = derivatives::<F, K, RATIONAL>(poles, &origins[first], &functions.n, k % 4);
+                let at = first..first + order;
+                let rows = (&net.poles[at.clone()], &derived[at]);
+                let mut jet = derivatives::<F, K, RATIONAL>(rows, &functions.n, k % 4);
+                jet[0] = jet[0] + F::load(&net.centre);
                 for d in 0..K {
                     let [x, y, z, _] = jet[d].to_array();
                     out[d] = P::from_coordinates([x, y, z]);
@@ -109,43 +111,30 @@ impl<P: Point, const K: usize> Batch<'_, P, K> {
     }
 }
 
-/// The point and derivatives of one of four, the latter over differences from `origin`.
+/// The point, from the centre, and the derivatives of one of four.
 #[inline(always)]
 fn derivatives<F: Four, const K: usize, const RATIONAL: bool>(
-    poles: &[[f64; 4]],
-    origin: &[f64; 4],
+    (poles, derived): (&[[f64; 4]], &[[[f64; 4]; 2]]),
     n: &[[[f64; 4]; WIDE]; K],
     of: usize,
 ) -> [F; K] {
-    let local = K > 1;
-    let base = if local { origin[3] } else { 0.0 };
-    let origin = F::load(origin);
     let mut jet = [F::splat(0.0); K];
-    for (j, pole) in poles.iter().enumerate() {
-        let mut four = F::load(pole);
-        if local {
-            four = four - origin;
-        }
-        if RATIONAL {
-            let w = pole[3];
-            four = four * F::load(&[w, w, w, 1.0]);
-        }
-        for d in 0..K {
-            jet[d] = jet[d] + four * F::splat(n[d][j][of]);
+    for (j, (pole, derived)) in poles.iter().zip(derived).enumerate() {
+        jet[0] = jet[0] + F::load(pole) * F::splat(n[0][j][of]);
+        // The last ones have no difference to the next.
+        for d in (1..K).filter(|d| j + d < poles.len()) {
+            jet[d] = jet[d] + F::load(&derived[d - 1]) * F::splat(n[d][j][of]);
         }
     }
     if RATIONAL {
         // Eq. 4.8, up to the second order.
-        let inverse = F::splat(1.0 / (weight(jet[0]) + base));
+        let inverse = F::splat(1.0 / weight(jet[0]));
         jet[0] = jet[0] * inverse;
         if K > 2 {
             let (w1, w2) = (F::splat(weight(jet[1])), F::splat(weight(jet[2])));
             jet[1] = (jet[1] - jet[0] * w1) * inverse;
             jet[2] = (jet[2] - jet[1] * (w1 + w1) - jet[0] * w2) * inverse;
         }
-    }
-    if local {
-        jet[0] = jet[0] + origin;
     }
     jet
 }

@@ -5,15 +5,18 @@
 //! (x, y, z, weight), which fill a wide register. The results have the same bits on every
 //! processor.
 
-use super::basis::KnotVector;
+use super::divided::{self, Net};
 use super::span_table::{Functions, SpanTable, WIDE};
 use super::surface::{NurbsSurface, SurfaceDerivatives};
 use super::wide::{self, Four, Work};
 use glam::{DVec2, DVec3};
+use std::sync::OnceLock;
 
 /// Points of one block: its basis functions fit the fastest cache.
 pub(super) const BLOCK: usize = 4 * FOURS;
 pub(super) const FOURS: usize = 8;
+/// Parameter pairs in a line of the cache.
+const LINE: usize = 4;
 
 /// A surface prepared for evaluation at many places.
 #[derive(Debug, Clone)]
@@ -30,39 +33,27 @@ struct Prepared {
     rows: usize,
     width: usize,
     columns: usize,
-    /// Coordinates and weights.
-    poles: Vec<[f64; 4]>,
-    /// By the first pole of a span, what derivatives are summed over differences from.
-    origins: Vec<[f64; 4]>,
-}
-
-/// For each window of so many entries, `stride` apart, in each place the number nearest to zero.
-/// Differences from it keep the digits of derivatives on short spans, and add no error beyond that
-/// of the entries themselves.
-pub(super) fn nearest_to_zero(entries: &[[f64; 4]], window: usize, stride: usize) -> Vec<[f64; 4]> {
-    let nearer = |a: f64, b: f64| if b.abs() < a.abs() { b } else { a };
-    let of = |first: usize| {
-        let window = entries[first..].iter().step_by(stride).take(window);
-        window.fold([f64::INFINITY; 4], |a, b| std::array::from_fn(|k| nearer(a[k], b[k])))
-    };
-    (0..entries.len()).map(of).collect()
+    net: Net,
+    /// The poles of derivatives, once they are asked for.
+    derived: OnceLock<Vec<[[f64; 4]; 5]>>,
 }
 
 impl<'a> SurfaceEvaluator<'a> {
     /// Prepares the surface; its cost is that of about as many points as there are poles.
     pub fn new(surface: &'a NurbsSurface) -> Self {
         let prepared = SpanTable::new(surface.knots_u()).zip(SpanTable::new(surface.knots_v()));
-        let order = |knots: &KnotVector| knots.degree() + 1;
         let pole = |i: usize| {
             let [x, y, z] = surface.poles()[i].to_array();
             [x, y, z, surface.weights().map_or(0.0, |w| w[i])]
         };
-        let prepared = prepared.map(|(u, v)| {
-            let (rows, width) = (order(surface.knots_u()), order(surface.knots_v()));
-            let columns = surface.knots_v().len();
-            let poles: Vec<_> = (0..surface.poles().len()).map(pole).collect();
-            let origins = nearest_to_zero(&nearest_to_zero(&poles, width, 1), rows, columns);
-            Prepared { u, v, rows, width, columns, poles, origins }
+        let prepared = prepared.map(|(u, v)| Prepared {
+            u,
+            v,
+            rows: surface.knots_u().degree() + 1,
+            width: surface.knots_v().degree() + 1,
+            columns: surface.knots_v().len(),
+            net: Net::new((0..surface.poles().len()).map(pole).collect()),
+            derived: OnceLock::new(),
         });
         Self { surface, prepared }
     }
@@ -98,7 +89,13 @@ impl<'a> SurfaceEvaluator<'a> {
         match &self.prepared {
             Some(prepared) => {
                 let rational = self.surface.weights().is_some();
-                wide::run((Order, Batch { prepared, rational, uv, out }));
+                let knots = || [self.surface.knots_u(), self.surface.knots_v()];
+                let derived: &[_] = if K == 1 {
+                    &[]
+                } else {
+                    prepared.derived.get_or_init(|| divided::of_surface(&prepared.net, knots()))
+                };
+                wide::run((Order, Batch { of: Poles { prepared, derived }, rational, uv, out }));
             }
             None => uv.iter().zip(out).for_each(|(&uv, out)| *out = one(uv)),
         }
@@ -142,8 +139,15 @@ pub(super) fn weight<F: Four>(four: F) -> f64 {
     four.to_array()[3]
 }
 
-struct Batch<'a, T> {
+/// What is summed.
+#[derive(Clone, Copy)]
+struct Poles<'a> {
     prepared: &'a Prepared,
+    derived: &'a [[[f64; 4]; 5]],
+}
+
+struct Batch<'a, T> {
+    of: Poles<'a>,
     rational: bool,
     uv: &'a [DVec2],
     out: &'a mut [T],
@@ -153,7 +157,7 @@ impl<const K: usize, T: OfJet<K>> Work for (Order<K>, Batch<'_, T>) {
     #[inline(always)]
     fn run<F: Four>(self) {
         let batch = self.1;
-        match (batch.rational, batch.prepared.width) {
+        match (batch.rational, batch.of.prepared.width) {
             (false, 2) => batch.blocks::<F, K, 2, false>(),
             (false, 3) => batch.blocks::<F, K, 3, false>(),
             (false, 4) => batch.blocks::<F, K, 4, false>(),
@@ -174,27 +178,27 @@ impl<T> Batch<'_, T> {
     where
         T: OfJet<K>,
     {
+        let of @ Poles { prepared, .. } = self.of;
         let (mut nu, mut nv) = ([Functions::<K>::NONE; FOURS], [Functions::<K>::NONE; FOURS]);
-        for (uv, out) in self.uv.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
+        let blocks = self.uv.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK));
+        for (uv, out, next) in blocks.enumerate().map(|(b, (uv, out))| (uv, out, (b + 1) * BLOCK)) {
+            self.uv.iter().skip(next).take(BLOCK).step_by(LINE).for_each(F::prefetch);
             // The last four repeat the last point.
             let mut padded = [uv[uv.len() - 1]; BLOCK];
             padded[..uv.len()].copy_from_slice(uv);
             let fours = padded.as_chunks::<4>().0.iter().take(uv.len().div_ceil(4));
             let us = fours.clone().map(|[a, b, c, d]| [a.x, b.x, c.x, d.x]);
-            self.prepared.u.functions::<F, K>(us, &mut nu);
-            self.prepared.v.functions::<F, K>(fours.map(|[a, b, c, d]| [a.y, b.y, c.y, d.y]), &mut nv);
+            prepared.u.functions::<F, K>(us, &mut nu);
+            prepared.v.functions::<F, K>(fours.map(|[a, b, c, d]| [a.y, b.y, c.y, d.y]), &mut nv);
             for (k, out) in out.iter_mut().enumerate().take(uv.len()) {
-                let jet = self.prepared.jet::<F, K, W, RATIONAL>(&nu[k / 4], &nv[k / 4], k % 4);
+                let jet = of.jet::<F, K, W, RATIONAL>(&nu[k / 4], &nv[k / 4], k % 4);
                 *out = T::of_jet(&jet);
             }
         }
     }
 }
 
-/// How many orders of derivatives, the point among them.
-struct Order<const K: usize>;
-
-impl Prepared {
+impl Poles<'_> {
     /// Derivatives `[k][l]`, `k + l < K`, of one of four.
     #[inline(always)]
     fn jet<F: Four, const K: usize, const W: usize, const RATIONAL: bool>(
@@ -203,49 +207,50 @@ impl Prepared {
         nv: &Functions<K>,
         of: usize,
     ) -> [[F; K]; K] {
-        let first = nu.first[of] * self.columns + nv.first[of];
-        // Points alone are sums of what has no cancellation anyway.
-        let (local, zero) = (K > 1, F::splat(0.0));
-        let origin = &self.origins[first];
-        let base = if local { origin[3] } else { 0.0 };
-        let origin = F::load(origin);
-        let mut jet = [[zero; K]; K];
-        for i in 0..self.rows {
-            let row = &self.poles[first + i * self.columns..][..W];
-            let mut line = [zero; K];
+        let Prepared { rows, columns, net, .. } = self.prepared;
+        let first = nu.first[of] * columns + nv.first[of];
+        let m = |k: usize, i: usize| F::splat(nu.n[k][i][of]);
+        let n = |l: usize, j: usize| F::splat(nv.n[l][j][of]);
+        let mut jet = [[F::splat(0.0); K]; K];
+        for i in 0..*rows {
+            let row = &net.poles[first + i * columns..][..W];
+            let mut s = F::splat(0.0);
             for j in 0..W {
-                let mut pole = F::load(&row[j]);
-                if local {
-                    pole = pole - origin;
-                }
-                if RATIONAL {
-                    let w = row[j][3];
-                    pole = pole * F::load(&[w, w, w, 1.0]);
-                }
-                for l in 0..K {
-                    line[l] = line[l] + pole * F::splat(nv.n[l][j][of]);
-                }
+                s = s + F::load(&row[j]) * n(0, j);
             }
-            for k in 0..K {
-                for l in 0..K - k {
-                    jet[k][l] = jet[k][l] + line[l] * F::splat(nu.n[k][i][of]);
-                }
-            }
+            jet[0][0] = jet[0][0] + s * m(0, i);
         }
+        // The `k`-th in u and `l`-th in v has so many fewer poles, which are the `which`-th.
+        macro_rules! add {
+            ($($k:literal $l:literal $which:literal)*) => {$(
+                if $k + $l < K {
+                    for i in 0..*rows - $k {
+                        let row = &self.derived[first + i * columns..][..W];
+                        let mut sum = F::splat(0.0);
+                        for j in 0..W - $l {
+                            sum = sum + F::load(&row[j][$which]) * n($l, j);
+                        }
+                        jet[$k][$l] = jet[$k][$l] + sum * m($k, i);
+                    }
+                }
+            )*};
+        }
+        add!(0 1 0  0 2 1  1 0 2  1 1 3  2 0 4);
         if RATIONAL {
-            divide(&mut jet, base);
+            divide(&mut jet);
         }
-        if local {
-            jet[0][0] = jet[0][0] + origin;
-        }
+        jet[0][0] = jet[0][0] + F::load(&net.centre);
         jet
     }
 }
 
-/// Divides by the weight (eq. 4.20), up to the second order; weights are over `base`.
+/// How many orders of derivatives, the point among them.
+struct Order<const K: usize>;
+
+/// Divides by the weight (eq. 4.20), up to the second order.
 #[inline(always)]
-fn divide<F: Four, const K: usize>(jet: &mut [[F; K]; K], base: f64) {
-    let inverse = F::splat(1.0 / (weight(jet[0][0]) + base));
+fn divide<F: Four, const K: usize>(jet: &mut [[F; K]; K]) {
+    let inverse = F::splat(1.0 / weight(jet[0][0]));
     let s = jet[0][0] * inverse;
     jet[0][0] = s;
     if K < 2 {
@@ -272,6 +277,7 @@ fn over<F: Four>(d: F, a: F, wa: f64, b: F, wb: f64) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::nurbs::KnotVector;
 
     fn surface(p: usize, q: usize, rational: bool) -> NurbsSurface {
         let ku = KnotVector::clamped(p, &[0.0, 0.3, 0.35, 1.0]).unwrap();

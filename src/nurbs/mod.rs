@@ -12,6 +12,8 @@ pub mod curve_evaluator;
 pub mod degree;
 pub mod derivatives;
 pub mod differential;
+mod divided;
+mod double;
 pub mod evaluator;
 pub mod grid;
 pub mod join;

@@ -12,8 +12,8 @@ const BUCKETS: usize = 8;
 /// Buckets at most.
 const MOST_BUCKETS: usize = 1 << 14;
 
-/// For four parameters: index of the first function on the span, and the functions there with
-/// their derivatives below the `K`-th.
+/// For four parameters: index of the first function on the span, and the functions there of `K`
+/// degrees, the highest first; those of a lower degree begin with as many fewer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Functions<const K: usize> {
     pub first: [usize; 4],
@@ -146,14 +146,7 @@ impl Span {
     }
 }
 
-/// Functions of one degree on four spans, with those of the degree below over their supports.
-#[derive(Clone, Copy)]
-struct Stage<F> {
-    n: [F; WIDE],
-    divided: [F; MOST],
-}
-
-/// The recurrence (A2.2) and the differences that make derivatives up to the second (eq. 2.7).
+/// The recurrence (A2.2), with the functions of the lower degrees that derivatives are sums of.
 #[inline(always)]
 fn recurrence<F: Four, const K: usize, const P: usize>(
     spans: [&Span; 4],
@@ -169,54 +162,33 @@ fn recurrence<F: Four, const K: usize, const P: usize>(
         left[r] = u - of(|s, _, r| s.below[r], 0, r);
         right[r] = of(|s, _, r| s.above[r], 0, r) - u;
     }
-    let mut stage = Stage { n: [zero; WIDE], divided: [zero; MOST] };
-    stage.n[0] = F::splat(1.0);
-    let mut lower = stage;
+    let mut n = [zero; WIDE];
+    n[0] = F::splat(1.0);
     macro_rules! raise {
         ($($j:literal)*) => {$(
             if $j <= P {
-                lower = stage;
-                stage.n[$j] = zero;
+                if P - $j + 1 < K {
+                    keep(&n, $j - 1, &mut out[P - $j + 1]);
+                }
+                let lower = n;
+                n[$j] = zero;
                 for r in 0..$j {
-                    let t = lower.n[r] * of(|s, j, r| s.inverse[j - 1][r], $j, r);
-                    stage.divided[r] = t;
-                    let kept = if r == 0 { right[r] * t } else { stage.n[r] + right[r] * t };
-                    stage.n[r] = kept;
-                    stage.n[r + 1] = left[P + r - $j] * t;
+                    let t = lower[r] * of(|s, j, r| s.inverse[j - 1][r], $j, r);
+                    n[r] = if r == 0 { right[r] * t } else { n[r] + right[r] * t };
+                    n[r + 1] = left[P + r - $j] * t;
                 }
             }
         )*};
     }
     raise!(1 2 3 4 5);
-    for r in 0..=P {
-        stage.n[r].store(&mut out[0][r]);
-    }
-    if K > 1 {
-        differences::<F, P>(&stage.divided, P, &mut out[1]);
-    }
-    if K > 2 && P > 1 {
-        let mut slopes = [[0.0; 4]; WIDE];
-        differences::<F, P>(&lower.divided, P - 1, &mut slopes);
-        let mut divided = [zero; MOST];
-        for r in 0..P {
-            divided[r] = F::load(&slopes[r]) * of(|s, j, r| s.inverse[j - 1][r], P, r);
-        }
-        differences::<F, P>(&divided, P, &mut out[2]);
-    }
+    keep(&n, P, &mut out[0]);
 }
 
-/// The slopes of the functions of degree `p`, at most `P`, from the functions of the degree below
-/// over their supports.
 #[inline(always)]
-fn differences<F: Four, const P: usize>(divided: &[F; MOST], p: usize, out: &mut [[f64; 4]; WIDE]) {
-    let factor = F::splat(p as f64);
-    (F::splat(-(p as f64)) * divided[0]).store(&mut out[0]);
-    for r in 1..P {
-        if r < p {
-            (factor * (divided[r - 1] - divided[r])).store(&mut out[r]);
-        }
+fn keep<F: Four>(n: &[F; WIDE], degree: usize, out: &mut [[f64; 4]; WIDE]) {
+    for r in 0..=degree {
+        n[r].store(&mut out[r]);
     }
-    (factor * divided[p - 1]).store(&mut out[p]);
 }
 
 #[cfg(test)]
@@ -240,15 +212,16 @@ mod tests {
             let mut out = vec![Functions::<3>::NONE; us.len()];
             wide::run(All { table: &table, us: &us, out: &mut out });
             for (&u, f) in us.iter().zip(&out) {
-                let (span, w) = (knots.span(u), degree + 1);
-                let mut expected = [0.0; 3 * WIDE];
-                knots.basis_derivatives(span, u, 2, &mut expected);
+                let span = knots.span(u);
                 assert_eq!(f.first, [span - degree; 4], "degree {degree}, u {u}");
-                for k in 0..3 {
-                    let size = expected[k * w..(k + 1) * w].iter().fold(0.0f64, |s, x| s.max(x.abs()));
-                    for j in 0..w {
-                        let (is, want) = (f.n[k][j][3], expected[k * w + j]);
-                        assert!((is - want).abs() <= 4e-15 * size, "degree {degree}, u {u}: {is} {want}");
+                for k in 0..3.min(degree) {
+                    let flat = &knots.flat()[k..knots.flat().len() - k];
+                    let lower = KnotVector::new(degree - k, flat.to_vec()).unwrap();
+                    let mut expected = [0.0; WIDE];
+                    lower.basis(span - k, u, &mut expected);
+                    for j in 0..=degree - k {
+                        let (is, want) = (f.n[k][j][3], expected[j]);
+                        assert!((is - want).abs() <= 4e-15, "degree {degree} - {k}, u {u}: {is} {want}");
                     }
                 }
             }

@@ -123,6 +123,19 @@ impl NurbsSurface {
         Ok(patches)
     }
 
+    /// The same surface over the domain `[a, b]` along `direction`.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for an empty domain.
+    pub fn over(&self, direction: Direction, a: f64, b: f64) -> Result<Self> {
+        let knots = self.knots(direction).over(a, b)?;
+        let (u, v) = match direction {
+            Direction::U => (knots, self.knots_v().clone()),
+            Direction::V => (self.knots_u().clone(), knots),
+        };
+        Self::new(u, v, self.poles().to_vec(), self.weights().map(<[f64]>::to_vec))
+    }
+
     /// The curve along which the parameter of `direction` is `t`, exactly; it runs over the other.
     pub fn isocurve(&self, direction: Direction, t: f64) -> Result<NurbsCurve<DVec3>> {
         let mut net = Net::new(self.knots_v().len(), self.poles(), self.weights());
@@ -227,11 +240,13 @@ mod tests {
         let (moved, flat) =
             (c.mapped(|p| map.transform_point3(p)).unwrap(), c.mapped(|p| DVec2::new(p.x, p.z)).unwrap());
         let (far, s) = (c.over(3.0, 5.0).unwrap(), surface().mapped(|p| map.transform_point3(p)).unwrap());
+        let wide = surface().over(Direction::V, 3.0, 5.0).unwrap();
         for i in 0..=50 {
             let t = i as f64 / 50.0;
             close(moved.point(t), map.transform_point3(c.point(t)));
             close(far.point(3.0 + 2.0 * t), c.point(t));
             close(s.point(t, t), map.transform_point3(surface().point(t, t)));
+            close(wide.point(t, 3.0 + t), surface().point(t, t));
             assert!((flat.point(t) - DVec2::new(c.point(t).x, c.point(t).z)).length() < 1e-14);
         }
     }

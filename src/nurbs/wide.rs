@@ -12,6 +12,9 @@ pub(crate) trait Four: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     fn splat(x: f64) -> Self;
     fn load(x: &[f64; 4]) -> Self;
     fn store(self, out: &mut [f64; 4]);
+    /// Has the processor fetch what will be read soon, where it takes such hints.
+    #[inline(always)]
+    fn prefetch<T>(_soon: &T) {}
     fn to_array(self) -> [f64; 4] {
         let mut out = [0.0; 4];
         self.store(&mut out);
@@ -77,8 +80,8 @@ impl Four for Plain {
 mod avx2 {
     use super::{Add, Four, Mul, Sub, Work};
     use std::arch::x86_64::{
-        __m256d, _mm256_add_pd, _mm256_loadu_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_storeu_pd,
-        _mm256_sub_pd,
+        __m256d, _MM_HINT_T0, _mm_prefetch, _mm256_add_pd, _mm256_loadu_pd, _mm256_mul_pd, _mm256_set1_pd,
+        _mm256_storeu_pd, _mm256_sub_pd,
     };
 
     #[target_feature(enable = "avx2")]
@@ -122,6 +125,11 @@ mod avx2 {
         fn store(self, out: &mut [f64; 4]) {
             // SAFETY: as above; the array holds the four numbers written, of any alignment.
             unsafe { _mm256_storeu_pd(out.as_mut_ptr(), self.0) }
+        }
+        #[inline(always)]
+        fn prefetch<T>(soon: &T) {
+            // SAFETY: a hint changes no memory, and the address is that of a reference.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(soon).cast()) }
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Every call of the kernel with arbitrary arguments. Arrays are as long as the header asks for:
 //! all else about them is arbitrary.
 
-use super::meets::{cast_rays, meet_curves, offset_curve, offset_surface};
+use super::cuts::{cast_many, cut_surfaces, project_curves, round_corners, take_one};
+use super::meets::{cast_rays, map_to_offset, meet_curves, offset_curve, offset_surface};
 use super::source::Source;
 use super::surfaces::{
-    evaluate_surface, make_surface, nearest_on_surface, reshape_surface, surfaces_of_curves,
+    evaluate_on_grid, evaluate_surface, make_surface, nearest_on_surface, patches_of_surface,
+    reshape_surface, surfaces_of_curves,
 };
 use bladesmith::ffi::library::bladesmith_last_error;
 use bladesmith::ffi::spline::curve::*;
@@ -252,7 +254,7 @@ fn join_curves(source: &mut Source, pool: &mut Pool) -> i32 {
 
 fn list_curves(source: &mut Source, pool: &mut Pool) -> i32 {
     let handles: Vec<_> = (0..source.below(4)).map(|_| pool.curve(source)).collect();
-    let (mut list, mut count): (*mut Curves, usize) = (null_mut(), 0);
+    let mut list: *mut Curves = null_mut();
     // SAFETY: the handles are alive or NULL.
     let status = unsafe {
         if source.once_in(2) {
@@ -261,16 +263,20 @@ fn list_curves(source: &mut Source, pool: &mut Pool) -> i32 {
             bladesmith_curves_compatible(handles.as_ptr(), handles.len(), &mut list)
         }
     };
-    if list.is_null() {
-        return status;
-    }
-    let mut out = null_mut();
-    // SAFETY: the list is alive, and not used any more.
-    unsafe {
-        bladesmith_curves_count(list, &mut count);
-        bladesmith_curves_get(list, source.below(count + 1), &mut out);
-        bladesmith_curves_free(list);
-    }
+    take_one(source, pool, list);
+    status
+}
+
+fn closed_curves(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (dimension, degree) = (source.dimension(), source.degree());
+    let breaks = source.knots(1);
+    let count = breaks.len().saturating_sub(1);
+    let (poles, weights, mut out) = (source.numbers(3 * count), source.weights(count), null_mut());
+    let (knots, poles) = (breaks.as_ptr(), poles.as_ptr());
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        bladesmith_curve_periodic(dimension, degree, knots, breaks.len(), poles, pointer(&weights), &mut out)
+    };
     pool.keep_curve(source, out);
     status
 }
@@ -298,6 +304,12 @@ fn parameters_of_points(source: &mut Source, _: &mut Pool) -> i32 {
     let points = source.numbers(3 * count);
     let mut out = room(count);
     let (spacing, factor) = (source.small(), source.number());
+    if source.once_in(3) {
+        let degree = source.degree();
+        let mut knots = room(count + degree.min(30) as usize + 1);
+        // SAFETY: as below.
+        return unsafe { bladesmith_averaged_knots(degree, points.as_ptr(), count, knots.as_mut_ptr()) };
+    }
     // SAFETY: the arrays are as long as the header asks for.
     unsafe { bladesmith_parameters(dimension, points.as_ptr(), count, spacing, factor, out.as_mut_ptr()) }
 }
@@ -411,7 +423,7 @@ pub fn read_table(table: *mut Table) {
 }
 
 /// All of them; those that make handles come more often.
-pub const CALLS: [Call; 24] = [
+pub const CALLS: [Call; 32] = [
     ("curve_new", make_curve),
     ("curve_new", make_curve),
     ("curve_evaluate", evaluate_curve),
@@ -422,7 +434,8 @@ pub const CALLS: [Call; 24] = [
     ("curve_join", join_curves),
     ("curves_*", list_curves),
     ("curve_arc, curve_conic", conics),
-    ("parameters", parameters_of_points),
+    ("curve_periodic", closed_curves),
+    ("parameters, averaged_knots", parameters_of_points),
     ("curve_interpolate", interpolate),
     ("curve_fit, curve_smooth*", fit),
     ("curve_nearest*", nearest_on_curve),
@@ -434,6 +447,13 @@ pub const CALLS: [Call; 24] = [
     ("surface_nearest*", nearest_on_surface),
     ("curve_intersect, curve_self_intersect", meet_curves),
     ("curve_ray, surface_ray", cast_rays),
-    ("curve_offset", offset_curve),
+    ("curve_offset*", offset_curve),
+    ("curve_offset_map", map_to_offset),
+    ("curve_fillet*", round_corners),
+    ("curve_first_hits, surface_first_hits", cast_many),
+    ("surface_evaluate_grid", evaluate_on_grid),
+    ("surface_bezier, surfaces_*", patches_of_surface),
+    ("surface_section, surface_intersect, section_*", cut_surfaces),
+    ("surface_project", project_curves),
     ("surface_offset", offset_surface),
 ];

@@ -3,6 +3,7 @@
 //! nightly compiler is installed.
 
 mod calls;
+mod cuts;
 mod meets;
 mod source;
 mod surfaces;

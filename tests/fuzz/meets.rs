@@ -1,10 +1,11 @@
 //! Calls that find where shapes meet, and offsets.
 
-use super::calls::{Pool, read_table, tolerance};
+use super::calls::{Pool, read_table, room, tolerance};
+use super::cuts::take_one;
 use super::source::Source;
-use bladesmith::ffi::spline::curves::*;
 use bladesmith::ffi::spline::intersect::*;
 use bladesmith::ffi::spline::offset::*;
+use bladesmith::ffi::spline::ray::*;
 use std::ptr::null_mut;
 
 pub fn meet_curves(source: &mut Source, pool: &mut Pool) -> i32 {
@@ -42,18 +43,12 @@ pub fn cast_rays(source: &mut Source, pool: &mut Pool) -> i32 {
 pub fn offset_curve(source: &mut Source, pool: &mut Pool) -> i32 {
     let (curve, distance, within) = (pool.curve(source), source.number(), tolerance(source));
     let limit = if source.once_in(2) { 0.0 } else { source.number() };
-    let (mut list, mut pieces, mut out) = (null_mut(), null_mut(), null_mut());
-    // SAFETY: the handle is alive or NULL; the list is not used any more.
-    let status = unsafe {
-        let status = bladesmith_curve_offset(curve, distance, within, limit, &mut list, &mut pieces);
-        if !list.is_null() {
-            bladesmith_curves_get(list, 0, &mut out);
-        }
-        bladesmith_curves_free(list);
-        status
-    };
+    let (mut list, mut pieces) = (null_mut(), null_mut());
+    let call = if source.once_in(4) { bladesmith_curve_offset_raw } else { bladesmith_curve_offset };
+    // SAFETY: the handle is alive or NULL.
+    let status = unsafe { call(curve, distance, within, limit, &mut list, &mut pieces) };
     read_table(pieces);
-    pool.keep_curve(source, out);
+    take_one(source, pool, list);
     status
 }
 
@@ -67,4 +62,12 @@ pub fn offset_surface(source: &mut Source, pool: &mut Pool) -> i32 {
     let status = unsafe { bladesmith_surface_offset(surface, distance, within, place, &mut out) };
     pool.keep_surface(source, out);
     status
+}
+
+pub fn map_to_offset(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (pieces, t) = (source.numbers(10), source.numbers(4));
+    let (count, mut out) = (source.below(3), room(4));
+    let (rows, t, curve) = (pieces.as_ptr(), t.as_ptr(), pool.curve(source));
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe { bladesmith_curve_offset_map(curve, rows, count, t, 4, out.as_mut_ptr()) }
 }

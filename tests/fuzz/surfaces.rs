@@ -7,6 +7,7 @@ use bladesmith::ffi::spline::nearest::*;
 use bladesmith::ffi::spline::surface::*;
 use bladesmith::ffi::spline::surface_make::*;
 use bladesmith::ffi::spline::surface_reshape::*;
+use bladesmith::ffi::spline::surfaces::*;
 use std::ptr::null_mut;
 
 pub fn make_surface(source: &mut Source, pool: &mut Pool) -> i32 {
@@ -49,6 +50,33 @@ pub fn evaluate_surface(source: &mut Source, pool: &mut Pool) -> i32 {
     }
 }
 
+pub fn evaluate_on_grid(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (surface, order) = (pool.surface(source), source.small());
+    let u = parameters_of(source, &knots_along(surface, 0), 3);
+    let v = parameters_of(source, &knots_along(surface, 1), 2);
+    let mut out = room(6 * 6 * 3);
+    // SAFETY: the arrays are as long as the header asks for.
+    unsafe {
+        bladesmith_surface_evaluate_grid(surface, u.as_ptr(), 3, v.as_ptr(), 2, order, out.as_mut_ptr())
+    }
+}
+
+pub fn patches_of_surface(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (mut list, mut count, mut out) = (null_mut(), 0, null_mut());
+    // SAFETY: the handle is alive or NULL, the list alive, and not used any more.
+    let status = unsafe {
+        let status = bladesmith_surface_bezier(pool.surface(source), &mut list);
+        if !list.is_null() {
+            bladesmith_surfaces_count(list, &mut count);
+            bladesmith_surfaces_get(list, source.below(count + 1), &mut out);
+        }
+        bladesmith_surfaces_free(list);
+        status
+    };
+    pool.keep_surface(source, out);
+    status
+}
+
 pub fn reshape_surface(source: &mut Source, pool: &mut Pool) -> i32 {
     let surface = pool.surface(source);
     let direction = if source.once_in(60) { source.small() } else { source.below(2) as u32 };
@@ -60,7 +88,7 @@ pub fn reshape_surface(source: &mut Source, pool: &mut Pool) -> i32 {
     let (mut moved, mut out, mut curve) = (f64::NAN, null_mut(), null_mut());
     // SAFETY: the arrays are as long as the header asks for.
     let status = unsafe {
-        match source.below(10) {
+        match source.below(11) {
             0 => bladesmith_surface_refine(surface, direction, t.as_ptr(), t.len(), &mut out),
             1 => bladesmith_surface_remove_knot(surface, direction, t[0], few, within, &mut moved, &mut out),
             2 => bladesmith_surface_elevate(surface, direction, few, &mut out),
@@ -70,6 +98,7 @@ pub fn reshape_surface(source: &mut Source, pool: &mut Pool) -> i32 {
             6 => bladesmith_surface_swap(surface, &mut out),
             7 => bladesmith_surface_clamp(surface, &mut out),
             8 => bladesmith_surface_map(surface, matrix.as_ptr(), &mut out),
+            9 => bladesmith_surface_over(surface, direction, t[0], t[1], &mut out),
             _ => bladesmith_surface_isocurve(surface, direction, t[0], &mut curve),
         }
     };

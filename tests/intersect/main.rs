@@ -1,5 +1,6 @@
 //! Intersections of curves against brute force, and where curves touch, overlap or turn back.
 
+mod algebra;
 mod overlaps;
 mod own;
 mod pairs;

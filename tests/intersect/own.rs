@@ -2,7 +2,8 @@
 
 use super::sample::{Random, brute_force, curve};
 use bladesmith::nurbs::{KnotVector, NurbsCurve};
-use bladesmith::ops::intersect::self_intersections;
+use bladesmith::ops::intersect::{Overlap, self_intersections};
+use bladesmith::ops::offset::Offset;
 use glam::DVec2;
 use std::f64::consts::TAU;
 
@@ -84,6 +85,58 @@ fn seams_corners_and_cusps_are_no_loops() {
         for tolerance in [1e-10, 1e-7, 1e-5] {
             let all = self_intersections(&c, tolerance).unwrap();
             assert!(all.crossings.is_empty() && all.overlaps.is_empty(), "{what}, {tolerance}: {all:?}");
+        }
+    }
+}
+
+/// The two arms of a cusp stay within the tolerance of each other for a while; that is no place
+/// which the curve passes twice.
+#[test]
+fn cusps_anywhere_are_no_loops() {
+    let cusp = bezier(&[[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]]);
+    for (from, to) in [(0.0, 0.77), (0.1, 0.93), (0.31, 1.0)] {
+        for size in [1e-3, 1.0, 1e3] {
+            let c = cusp.part(from, to).unwrap().mapped(|p| p * size + DVec2::new(3.0, -1.0) * size).unwrap();
+            for tolerance in [1e-12, 1e-10, 1e-9, 1e-7, 1e-5] {
+                let all = self_intersections(&c, tolerance * size).unwrap();
+                let none = all.crossings.is_empty() && all.overlaps.is_empty();
+                assert!(none, "{from} to {to}, size {size}, tolerance {tolerance}: {all:?}");
+            }
+        }
+    }
+}
+
+/// The offset of y = x² by d beyond its least radius 1/2 crosses itself where 1 + 4x² = 4d², with a
+/// cusp on either side: two control segments hold all of it.
+#[test]
+fn the_loop_of_an_offset_parabola_is_one_crossing() {
+    let poles = [[-1.0, 1.0], [0.0, -1.0], [1.0, 1.0]].map(DVec2::from).to_vec();
+    let parabola = NurbsCurve::new(KnotVector::clamped(2, &[-1.0, 1.0]).unwrap(), poles, None).unwrap();
+    for (d, fit) in [(0.501, 1e-9), (0.51, 1e-9), (0.6, 1e-9)] {
+        let raw = Offset::new(d, fit).raw(&parabola).unwrap();
+        assert_eq!(raw.len(), 1, "{d}");
+        let half = 0.5 * (4.0 * d * d - 1.0f64).sqrt();
+        for tolerance in [1e-11, 1e-10, 1e-9, 1e-8] {
+            let all = self_intersections(&raw[0].curve, tolerance).unwrap();
+            let what = format!("{d}, {fit}, {tolerance}: {all:?}");
+            assert!(all.crossings.len() == 1 && all.overlaps.is_empty(), "{what}");
+            let off = all.crossings[0].at.map(f64::abs).map(|x| (x - half).abs());
+            assert!(off.iter().all(|x| *x < 1e-4), "{what}");
+        }
+    }
+}
+
+#[test]
+fn a_span_that_turns_back_on_itself_overlaps_up_to_its_turn() {
+    // x = t (2 − t), y = x / 2: all beyond the turn at 1 lies on what was before.
+    for end in [2.0, 1.5] {
+        let c = bezier(&[[0.0, 0.0], [end, 0.5 * end], [end * (2.0 - end), 0.5 * end * (2.0 - end)]]);
+        let all = self_intersections(&c, 1e-9).unwrap();
+        assert!(all.overlaps.len() == 1 && all.crossings.is_empty(), "{end}: {all:?}");
+        let Overlap { first, second } = all.overlaps[0];
+        let expected = [(2.0 - end) / end, 1.0 / end, 1.0, 1.0 / end];
+        for (is, t) in [first, second].as_flattened().iter().zip(expected) {
+            assert!((is - t).abs() < 1e-4, "{end}: {all:?}, expected {expected:?}");
         }
     }
 }

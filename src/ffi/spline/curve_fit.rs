@@ -9,7 +9,7 @@ use crate::ffi::slice::{ArrayOut, slice};
 use crate::nurbs::KnotVector;
 use crate::ops::conditions::{Condition, interpolate, interpolate_over};
 use crate::ops::least_squares::{Sample, fit, smooth, smooth_within};
-use crate::ops::parametrise::{self, parameters};
+use crate::ops::parametrise::{self, averaged_knots, parameters};
 
 /// How bladesmith_parameters() spaces parameters.
 #[repr(C)]
@@ -71,6 +71,32 @@ pub unsafe extern "C" fn bladesmith_parameters(
             out.fill(parameters(points, spacing)?);
             Ok(())
         })
+    })
+}
+
+/// Clamped knots for a curve through points: inner ones are means of neighbouring parameters, as
+/// bladesmith_curve_interpolate() takes them by itself.
+///
+/// degree: 1 to 25.
+/// parameters: [count] ascending, more than degree.
+/// out: [count + degree + 1].
+/// Units: those of the parameter.
+/// Owner: the caller gives the arrays; out is written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for too few or descending parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_averaged_knots(
+    degree: u32,
+    parameters: *const f64,
+    count: usize,
+    out: *mut f64,
+) -> i32 {
+    guard(|| {
+        // SAFETY: the header states the length of the array.
+        let parameters = unsafe { numbers(parameters, count, "parameters")? };
+        let knots = averaged_knots(degree as usize, parameters)?;
+        // SAFETY: as above.
+        unsafe { filled(out, knots.flat().len(), "out")? }.fill(knots.flat().iter().copied());
+        Ok(())
     })
 }
 

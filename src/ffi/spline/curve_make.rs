@@ -1,11 +1,10 @@
-//! Arcs and conics.
+//! Arcs, conics, closed curves.
 
-use super::Row;
 use super::curve::{Curve, by_dimension};
-use super::number;
+use super::{Row, number, numbers, optional};
 use crate::ffi::guard::guard;
 use crate::ffi::handle::Out;
-use crate::nurbs::NurbsCurve;
+use crate::nurbs::{KnotVector, NurbsCurve};
 
 /// The arc centre + x cos a + y sin a for angles a from one to another, exactly: of a circle where
 /// x and y are perpendicular and as long as the radius, else of the ellipse with these conjugate
@@ -75,6 +74,48 @@ pub unsafe extern "C" fn bladesmith_curve_conic(
                 NurbsCurve::conic_through(start, corner, end, unsafe { P::row(through, "through")? })?
             };
             out.hand_over(conic.into());
+            Ok(())
+        })
+    })
+}
+
+/// The closed curve that goes on smoothly over its seam: its knots are unclamped and repeat by the
+/// period.
+///
+/// dimension: 2 or 3.
+/// degree: 1 to 25.
+/// breaks: [break_count] ascending, the domain from the first to the last.
+/// poles: [break_count - 1][dimension], each once.
+/// weights: [break_count - 1] positive weights, or NULL for a polynomial curve.
+/// Units: one length unit for all coordinates, mm by convention.
+/// Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for arrays that make no curve.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_curve_periodic(
+    dimension: u32,
+    degree: u32,
+    breaks: *const f64,
+    break_count: usize,
+    poles: *const f64,
+    weights: *const f64,
+    out: *mut *mut Curve,
+) -> i32 {
+    guard(|| {
+        let count = break_count.saturating_sub(1);
+        // SAFETY: the header states the lengths of the arrays and asks for room for a handle.
+        let (breaks, weights, out) = unsafe {
+            (
+                numbers(breaks, break_count, "breaks")?,
+                optional(weights, count, "weights")?,
+                Out::new(out, "out")?,
+            )
+        };
+        let knots = KnotVector::periodic(degree as usize, breaks)?;
+        by_dimension!(dimension, P => {
+            // SAFETY: as above.
+            let poles = knots.wrapped(unsafe { P::rows(poles, count, "poles")? });
+            let weights = weights.map(|weights| knots.wrapped(weights));
+            out.hand_over(NurbsCurve::new(knots, poles, weights)?.into());
             Ok(())
         })
     })

@@ -13,18 +13,24 @@ pub mod curve_fit;
 pub mod curve_make;
 pub mod curve_reshape;
 pub mod curves;
+pub mod fillet;
 pub mod intersect;
 pub mod nearest;
 pub mod offset;
+pub mod ray;
+pub mod section;
 pub mod surface;
 pub mod surface_make;
 pub mod surface_reshape;
+pub mod surfaces;
 pub mod table;
 
 pub use curve::Curve;
 pub use curve_fit::Spacing;
 pub use curves::Curves;
+pub use section::Section;
 pub use surface::Surface;
+pub use surfaces::Surfaces;
 pub use table::Table;
 
 /// Highest order of derivatives that arrays are made for: beyond the largest degree a polynomial

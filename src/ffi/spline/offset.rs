@@ -1,15 +1,16 @@
 //! Offsets of planar curves and of surfaces.
 
-use super::curve::Curve;
+use super::curve::{Curve, each};
 use super::curves::{Curves, of_dimension};
 use super::surface::Surface;
 use super::table::Table;
-use super::{number, tolerance};
+use super::{filled, number, numbers, tolerance};
+use crate::error::Result;
 use crate::ffi::guard::guard;
 use crate::ffi::handle::{self, Out};
-use crate::ffi::slice::ArrayOut;
+use crate::ffi::slice::{ArrayOut, total};
 use crate::nurbs::NurbsCurve;
-use crate::ops::offset::{Corner, Offset};
+use crate::ops::offset::{Corner, DomainMap, Offset, OffsetCurve};
 use crate::ops::surface_offset;
 use glam::DVec2;
 
@@ -37,20 +38,93 @@ pub unsafe extern "C" fn bladesmith_curve_offset(
     curves: *mut *mut Curves,
     pieces: *mut *mut Table,
 ) -> i32 {
+    // SAFETY: the header asks for a live handle and room for two.
+    unsafe {
+        moved(curve, [distance, tolerance, limit], curves, pieces, |offset, source| offset.trimmed(source))
+    }
+}
+
+/// The whole offset of a curve in the plane, loops and all: nothing is trimmed, but curves end at
+/// inward corners.
+///
+/// distance, tolerance, limit, curves, pieces: as bladesmith_curve_offset() [1].
+/// Units: mm.
+/// Owner: as there; written only on success.
+/// Errors: as there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_curve_offset_raw(
+    curve: *const Curve,
+    distance: f64,
+    tolerance: f64,
+    limit: f64,
+    curves: *mut *mut Curves,
+    pieces: *mut *mut Table,
+) -> i32 {
+    // SAFETY: the header asks for a live handle and room for two.
+    unsafe { moved(curve, [distance, tolerance, limit], curves, pieces, |offset, source| offset.raw(source)) }
+}
+
+/// Hands over the offset that `find` finds of a distance, a tolerance and a limit.
+///
+/// # Safety
+/// `curve` is NULL or a live handle, `curves` and `pieces` NULL or room for one.
+unsafe fn moved(
+    curve: *const Curve,
+    [distance, tolerance, limit]: [f64; 3],
+    curves: *mut *mut Curves,
+    pieces: *mut *mut Table,
+    find: impl FnOnce(Offset, &NurbsCurve<DVec2>) -> Result<Vec<OffsetCurve>>,
+) -> i32 {
     guard(|| {
         let limit = self::tolerance(limit, "limit")?;
         let corner = if limit == 0.0 { Corner::Arc } else { Corner::Extension { limit } };
-        // SAFETY: the header asks for a live handle and room for two.
+        // SAFETY: promised by the caller.
         let (curve, curves, pieces) = unsafe {
             (handle::borrow(curve, "curve")?, Out::new(curves, "curves")?, Out::new(pieces, "pieces")?)
         };
-        let source: &NurbsCurve<DVec2> = of_dimension(curve, "curve")?;
-        let found = Offset { distance, tolerance, corner }.trimmed(source)?;
+        let found = find(Offset { distance, tolerance, corner }, of_dimension(curve, "curve")?)?;
         let of_all = found.iter().enumerate().flat_map(|(k, o)| o.pieces.iter().map(move |p| (k, p)));
         pieces.hand_over(Table::new(
             of_all.map(|(k, p)| [k as f64, p.range[0], p.range[1], p.source[0], p.source[1]]),
         ));
         curves.hand_over(found.into_iter().map(|o| o.curve).collect());
+        Ok(())
+    })
+}
+
+/// Parameters of a curve mapped to those that have a point in its offset: each part that is kept
+/// takes the domain up to the middle of the gaps beside it, evenly.
+///
+/// pieces: [piece_count][5] the rows of the table of bladesmith_curve_offset() for this curve, at
+/// least one.
+/// t: [count] parameters of the curve, finite; beyond the domain as its ends.
+/// out: [count] parameters of the curve.
+/// Units: those of the parameter.
+/// Owner: the caller gives the arrays; out is written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT, also for pieces that leave the curve's domain, and where nothing is
+/// kept.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_curve_offset_map(
+    curve: *const Curve,
+    pieces: *const f64,
+    piece_count: usize,
+    t: *const f64,
+    count: usize,
+    out: *mut f64,
+) -> i32 {
+    guard(|| {
+        // SAFETY: the header asks for live handles and states the lengths of the arrays.
+        let (curve, pieces, t, out) = unsafe {
+            (
+                handle::borrow(curve, "curve")?,
+                numbers(pieces, total(piece_count, 5, "piece_count")?, "pieces")?,
+                numbers(t, count, "t")?,
+                filled(out, count, "out")?,
+            )
+        };
+        let domain = each!(curve, c => c.knots().domain());
+        let map = DomainMap::onto(domain.into(), pieces.chunks(5).map(|row| [row[3], row[4]]))?;
+        out.fill(t.iter().map(|&t| map.at(t)));
         Ok(())
     })
 }

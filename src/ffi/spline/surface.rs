@@ -1,12 +1,13 @@
 //! Surfaces: from and to arrays, points and derivatives, normals and curvatures.
 
-use super::{Row, filled, knots, optional, order};
+use super::{Row, filled, knots, numbers, optional, order};
 use crate::error::{Error, Result};
 use crate::ffi::guard::{guard, guard_silent};
 use crate::ffi::handle::{self, Out};
 use crate::ffi::slice::{ArrayOut, total};
 use crate::nurbs::{NurbsSurface, Side, SurfaceDerivatives, SurfaceEvaluator};
 use crate::ops::invert::SurfaceInverter;
+use crate::ops::ray::SurfaceCaster;
 use glam::{DVec2, DVec3};
 use std::sync::OnceLock;
 
@@ -15,11 +16,12 @@ use std::sync::OnceLock;
 pub struct Surface {
     pub(super) surface: NurbsSurface,
     inverter: OnceLock<SurfaceInverter>,
+    caster: OnceLock<SurfaceCaster>,
 }
 
 impl From<NurbsSurface> for Surface {
     fn from(surface: NurbsSurface) -> Self {
-        Self { surface, inverter: OnceLock::new() }
+        Self { surface, inverter: OnceLock::new(), caster: OnceLock::new() }
     }
 }
 
@@ -34,6 +36,18 @@ impl Surface {
         }
         let made = SurfaceInverter::new(&self.surface)?;
         Ok(self.inverter.get_or_init(|| made))
+    }
+
+    /// Finds where rays meet it; made when first asked for.
+    ///
+    /// # Errors
+    /// As [`SurfaceCaster::new`].
+    pub(super) fn caster(&self) -> Result<&SurfaceCaster> {
+        if let Some(caster) = self.caster.get() {
+            return Ok(caster);
+        }
+        let made = SurfaceCaster::new(&self.surface)?;
+        Ok(self.caster.get_or_init(|| made))
     }
 }
 
@@ -213,6 +227,51 @@ fn in_order(d: &SurfaceDerivatives) -> [DVec3; 6] {
 fn in_rows(jet: &[Vec<DVec3>]) -> Vec<DVec3> {
     let of_order = |order: usize| (0..=order).map(move |l| jet[order - l][l]);
     (0..jet.len()).flat_map(of_order).collect()
+}
+
+/// Points and derivatives of a surface on a grid, faster than one by one.
+///
+/// u, v: [count_u] and [count_v] parameters, finite. Outside the domain the end spans are continued.
+/// order: highest total order of derivatives, 0 to 2.
+/// out: [count_u][count_v][(order + 1) * (order + 2) / 2][3]: as bladesmith_surface_evaluate(), v
+/// fastest.
+/// Units: mm, and mm per parameter to the power of the order.
+/// Owner: the caller gives the arrays; out is written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_surface_evaluate_grid(
+    surface: *const Surface,
+    u: *const f64,
+    count_u: usize,
+    v: *const f64,
+    count_v: usize,
+    order: u32,
+    out: *mut f64,
+) -> i32 {
+    guard(|| {
+        if order > 2 {
+            let why = format!("is {order}; on grids give at most 2");
+            return Err(Error::Argument { name: "order", why }.into());
+        }
+        let each = (order as usize + 1) * (order as usize + 2) / 2;
+        let rows = total(total(count_u, count_v, "count_u")?, each, "count_u")?;
+        // SAFETY: the header asks for a live handle and states the lengths of the arrays.
+        let (surface, u, v, out) = unsafe {
+            (
+                &handle::borrow(surface, "surface")?.surface,
+                numbers(u, count_u, "u")?,
+                numbers(v, count_v, "v")?,
+                filled(out.cast::<DVec3>(), rows, "out")?,
+            )
+        };
+        if order == 0 {
+            out.fill(surface.points_on_grid(u, v));
+        } else {
+            let jets = surface.derivatives_on_grid(u, v);
+            out.fill(jets.iter().flat_map(|d| in_order(d).into_iter().take(each)));
+        }
+        Ok(())
+    })
 }
 
 /// Normals and principal curvatures of a surface. Any of the outputs may be NULL; where the surface

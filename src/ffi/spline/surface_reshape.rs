@@ -193,6 +193,29 @@ pub unsafe extern "C" fn bladesmith_surface_swap(surface: *const Surface, out: *
     unsafe { reshape(surface, out, |surface| Ok(surface.swapped())) }
 }
 
+/// The same surface over another domain along a direction.
+///
+/// direction: 0 for u, 1 for v.
+/// from, to: ascending.
+/// Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for an empty domain.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_surface_over(
+    surface: *const Surface,
+    direction: u32,
+    from: f64,
+    to: f64,
+    out: *mut *mut Surface,
+) -> i32 {
+    // SAFETY: the header asks for live handles.
+    unsafe {
+        reshape(surface, out, |surface| {
+            let (from, to) = (number(from, "from")?, number(to, "to")?);
+            surface.over(self::direction(direction)?, from, to)
+        })
+    }
+}
+
 /// The same surface with the end knots of both directions repeated degree + 1 times.
 ///
 /// Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.

@@ -3,7 +3,7 @@
 
 use super::Kind;
 use super::approach::{Place, foot, nearest};
-use super::pairs::Search;
+use super::pairs::{Found, Search};
 use crate::nurbs::Point;
 
 /// A contact is followed to where the distance is so many times the tolerance: what is within the
@@ -22,6 +22,8 @@ const SMALLEST: f64 = 1.0 / 4096.0;
 const BISECTIONS: usize = 60;
 /// A contact not longer than so many tolerances is a point.
 const SHORT: f64 = 8.0;
+/// Places of one span no further apart, in its parameter of 0 to 1, are one.
+const ONE: f64 = 1e-8;
 /// How far from the line between its samples a contact may be, as a part of their parameters.
 const SLACK: f64 = 0.2;
 
@@ -34,6 +36,17 @@ pub struct Contact {
     pub is_overlap: bool,
     /// Whether the tangents are parallel within the tolerance.
     pub is_touch: bool,
+}
+
+/// How one side of a contact ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum End {
+    /// Within a span: the curves part.
+    Parts,
+    /// At the end of a span.
+    Span,
+    /// Where both places on one curve become one.
+    Cusp,
 }
 
 impl Contact {
@@ -134,18 +147,19 @@ impl<P: Point> Search<P> {
     fn follow(&mut self, pair: [usize; 2], at: [f64; 2]) {
         let Some(spans) = self.spans(pair) else { return };
         let start = [0, 1].map(|side| self.tree(side).local(spans[side], at[side]));
-        let (mut track, low_forced) = self.march(spans, start, 0.0);
+        let (mut track, low) = self.march(spans, start, 0.0);
         track.reverse();
-        let (after, high_forced) = self.march(spans, start, 1.0);
+        let (after, high) = self.march(spans, start, 1.0);
         track.push(start);
         track.extend(after);
         track.dedup();
         let long = self.extent(spans, &track) > SHORT * self.tolerance;
-        let is_overlap = low_forced && high_forced && long && self.is_within(spans, &track);
-        if !is_overlap {
+        let is_overlap = ![low, high].contains(&End::Parts) && long && self.is_within(spans, &track);
+        let is_single = !is_overlap && ![low, high].contains(&End::Cusp);
+        if is_single {
             track = self.even(spans, &track);
         }
-        let is_touch = !is_overlap && self.settle(spans, &track);
+        let is_touch = is_single && self.settle(spans, &track);
         let global = |at: &[f64; 2]| [0, 1].map(|k| self.tree(k).parameter(spans[k], at[k]));
         let track = track.iter().map(global).collect();
         self.contacts.push(Contact { track, is_overlap, is_touch });
@@ -183,9 +197,33 @@ impl<P: Point> Search<P> {
         track.iter().map(|at| (point(at[0]) - first).length()).fold(0.0, f64::max)
     }
 
-    /// Places from `start` towards an end of the first span, and whether it, or one of the other
-    /// span, was reached.
-    fn march(&self, spans: [usize; 2], start: [f64; 2], end: f64) -> (Vec<[f64; 2]>, bool) {
+    /// Whether a place is on the arms of a cusp, which stay within reach of each other up to its tip.
+    pub fn is_in_cusp(&self, f: &Found<P>) -> bool {
+        let tree = self.tree(0);
+        let mut at = [f.at[0].min(f.at[1]), f.at[0].max(f.at[1])];
+        while self.is_own() && at[0] < at[1] {
+            let spans = tree.spans_between(at);
+            let local = |k: usize, t: f64| tree.local(spans[k], t);
+            let (track, end) = self.march(spans, [local(0, at[0]), local(1, at[1])], 1.0);
+            let Some(last) = track.last().filter(|_| end != End::Parts) else { return false };
+            let next = [0, 1].map(|k| tree.parameter(spans[k], last[k]));
+            if next[0] <= at[0] && next[1] >= at[1] {
+                return false;
+            }
+            at = next;
+        }
+        self.is_own()
+    }
+
+    /// Whether two places, followed from `start`, have become one place of one span.
+    fn is_one(&self, spans: [usize; 2], start: [f64; 2], at: [f64; 2]) -> bool {
+        let between = (at[1] - at[0]) * (start[1] - start[0]).signum();
+        self.is_own() && spans[0] == spans[1] && between < ONE
+    }
+
+    /// Places from `start` towards an end of the first span, and how they end: at it, or at one of
+    /// the other span, too.
+    fn march(&self, spans: [usize; 2], start: [f64; 2], end: f64) -> (Vec<[f64; 2]>, End) {
         let pieces = self.pieces(spans);
         let reach = REACH * self.tolerance;
         let on = |u: f64, from: &Place<P>, slope: f64| {
@@ -198,23 +236,28 @@ impl<P: Point> Search<P> {
         let [d, e] = last.derivatives;
         let mut slope = d.dot(e) / e.dot(e).max(f64::MIN_POSITIVE);
         let longest = (end - start[0]) / STEPS as f64;
-        let mut by = longest;
+        let (mut by, mut is_cusp) = (longest, false);
         while by.abs() > longest.abs() * SMALLEST {
             let is_last = (end - last.at[0]).abs() <= by.abs();
             let next = on(if is_last { end } else { last.at[0] + by }, &last, slope);
+            is_cusp = self.is_one(spans, start, next.at);
+            if is_cusp {
+                by *= 0.5;
+                continue;
+            }
             // Within the reach the first curve may already be behind the end of the second.
             if next.at[1] == 0.0 || next.at[1] == 1.0 {
                 let u = foot(pieces[0], next.points[1], last.at[0]);
                 let place = Place::new(pieces, [u, next.at[1]]);
                 if place.distance() <= reach {
                     track.push(place.at);
-                    return (track, true);
+                    return (track, End::Span);
                 }
             }
             if next.distance() <= reach {
                 track.push(next.at);
                 if is_last {
-                    return (track, true);
+                    return (track, End::Span);
                 }
                 slope = (next.at[1] - last.at[1]) / (next.at[0] - last.at[0]);
                 last = next;
@@ -223,7 +266,11 @@ impl<P: Point> Search<P> {
             }
             by *= 0.5;
         }
-        (track, longest == 0.0)
+        if is_cusp {
+            track.push([0.5 * (last.at[0] + last.at[1]); 2]);
+            return (track, End::Cusp);
+        }
+        (track, if longest == 0.0 { End::Span } else { End::Parts })
     }
 
     /// Keeps the places of a contact at which the curves meet: that of parallel tangents if it is

@@ -18,7 +18,7 @@ impl<P: Point> Search<P> {
         for f in &mut found {
             f.at = self.at_starts(f.at);
         }
-        found.retain(|f| !self.is_in_contact(f) && !self.is_no_loop(f));
+        found.retain(|f| !self.is_in_contact(f) && !self.is_no_loop(f) && !self.is_in_cusp(f));
         if self.is_own() {
             found.iter_mut().filter(|f| f.at[0] > f.at[1]).for_each(Found::swap);
         }

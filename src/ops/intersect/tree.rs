@@ -264,12 +264,24 @@ impl<P: Point> Tree<P> {
         [points[0] + step * (u * ends[1] / weight), derivative]
     }
 
-    /// The point of the curve at a parameter.
-    pub fn point(&self, t: f64) -> P {
+    /// The node of the span that holds a parameter; of two, the one `after` it or before.
+    fn span(&self, t: f64, after: bool) -> usize {
         let mut k = self.root;
         while let (None, Some([a, b])) = (self.nodes[k].span, self.nodes[k].children) {
-            k = if t < self.nodes[b].range[0] { a } else { b };
+            let from = self.nodes[b].range[0];
+            k = if t < from || t == from && !after { a } else { b };
         }
+        k
+    }
+
+    /// The spans in which the stretch between two parameters begins and ends.
+    pub fn spans_between(&self, [from, to]: [f64; 2]) -> [usize; 2] {
+        [self.span(from, true), self.span(to, false)]
+    }
+
+    /// The point of the curve at a parameter.
+    pub fn point(&self, t: f64) -> P {
+        let k = self.span(t, true);
         self.at(k, self.local(k, t))[0]
     }
 

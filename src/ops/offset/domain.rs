@@ -38,6 +38,23 @@ impl DomainMap {
         Ok(Self { cells, intervals })
     }
 
+    /// The map of `domain` onto the union of intervals, in any order; empty ones are left out.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] when there is none, or they leave the domain.
+    pub fn onto(domain: [f64; 2], intervals: impl IntoIterator<Item = [f64; 2]>) -> Result<Self> {
+        let mut kept: Vec<[f64; 2]> = intervals.into_iter().filter(|s| s[0] < s[1]).collect();
+        kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        kept.dedup_by(|next, last| {
+            let touches = next[0] <= last[1];
+            if touches {
+                last[1] = last[1].max(next[1]);
+            }
+            touches
+        });
+        Self::new(domain, kept)
+    }
+
     /// The intervals.
     pub fn intervals(&self) -> &[[f64; 2]] {
         &self.intervals
@@ -70,6 +87,13 @@ mod tests {
             let x = map.at(i as f64 * 1e-3);
             assert!((0.0..=0.2).contains(&x) || (0.5..=1.0).contains(&x), "{x}");
         }
+    }
+
+    #[test]
+    fn intervals_in_any_order_are_united() {
+        let map = DomainMap::onto([0.0, 4.0], [[2.0, 3.0], [0.0, 1.0], [2.5, 3.5], [1.0, 1.0]]).unwrap();
+        assert_eq!(map.intervals(), [[0.0, 1.0], [2.0, 3.5]]);
+        assert!(DomainMap::onto([0.0, 4.0], [[1.0, 1.0]]).is_err());
     }
 
     #[test]

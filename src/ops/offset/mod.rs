@@ -6,6 +6,7 @@
 //! where print asks for one point only and decides by nested self-intersections, which is wrong for
 //! global loops and for the ends of open curves.
 
+mod bend;
 mod chain;
 mod domain;
 mod fit;
@@ -82,16 +83,7 @@ impl OffsetCurve {
 /// (Lüken 2022, the map ξ); none where there are none.
 pub fn domain_map(source: &NurbsCurve<DVec2>, offsets: &[OffsetCurve]) -> Option<DomainMap> {
     let pieces = offsets.iter().flat_map(|o| &o.pieces).map(|p| p.source);
-    let mut kept: Vec<[f64; 2]> = pieces.filter(|s| s[0] < s[1]).collect();
-    kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    kept.dedup_by(|next, last| {
-        let touches = next[0] <= last[1];
-        if touches {
-            last[1] = last[1].max(next[1]);
-        }
-        touches
-    });
-    DomainMap::new(source.knots().domain().into(), kept).ok()
+    DomainMap::onto(source.knots().domain().into(), pieces).ok()
 }
 
 impl Offset {

@@ -1,6 +1,7 @@
 //! The source of an offset as a row of short Bézier links, each with what its control points say
 //! about where it lies and where it heads.
 
+use super::bend::Bend;
 use crate::error::{Error, Result};
 use crate::nurbs::{NurbsCurve, Side};
 use crate::ops::invert::bezier::{CurvePiece, curve_pieces};
@@ -18,10 +19,6 @@ const DEPTH: usize = 48;
 const LINKS: usize = 20_000;
 /// Tolerances below this fraction of the largest coordinate are rounding.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
-/// Places on a link at which its curvature is looked at.
-const SAMPLES: usize = 5;
-/// The curvature of a link may leave the range seen by this share of it.
-const MARGIN: f64 = 0.5;
 /// Steps of this fraction of the coordinates have no direction worth the name.
 const NOISE: f64 = 1e-9;
 /// Ends closer than this fraction of the size are one.
@@ -237,13 +234,14 @@ impl Track {
     /// Adds the links of a piece: halved until each is nearly straight and lies on one side of the
     /// offset's cusps, or its offset is smaller than `smallest`.
     fn add(&mut self, piece: CurvePiece<DVec2>, smallest: f64) -> Result<()> {
-        let mut rest = vec![(piece, 0)];
-        while let Some((piece, depth)) = rest.pop() {
+        let mut rest = vec![(Bend::new(&piece), piece, 0)];
+        while let Some((bend, piece, depth)) = rest.pop() {
             let before = self.links.last().map_or((DVec2::X, 0.0), |l| (l.tangents[1], l.headings[1]));
             let mut link = Link::new(piece, before, self.side, [0.0; 2]);
             let mut decided = !link.is_wide();
             if decided {
-                link.bend = self.bend(link.range());
+                let [low, high] = bend.curvatures().map(|k| self.distance * k);
+                link.bend = [low.min(high), low.max(high)];
                 let one_sided = link.bend[1] <= self.flat || link.bend[0] > 1.0;
                 let is_finite = link.bend.iter().all(|b| b.is_finite());
                 decided = is_finite && (one_sided || link.image() <= smallest);
@@ -257,29 +255,14 @@ impl Track {
                     format!("the curve takes more than {LINKS} stretches that hardly turn: offset its parts");
                 return Err(Error::Numerics { why });
             } else if depth < DEPTH {
-                let [a, b] = link.piece.halves();
-                rest.extend([(b, depth + 1), (a, depth + 1)]);
+                let ([a, b], [first, second]) = (link.piece.halves(), bend.halves());
+                rest.extend([(second, b, depth + 1), (first, a, depth + 1)]);
             } else {
                 let why = format!("the curve stands still at {}: it has no offset there", link.range()[0]);
                 return Err(Error::Numerics { why });
             }
         }
         Ok(())
-    }
-
-    /// Least and largest curvature times distance between two parameters.
-    fn bend(&self, [a, b]: [f64; 2]) -> [f64; 2] {
-        let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for k in 0..SAMPLES {
-            // The ends are among them, as near an end of the curve the bend may be steep; where the
-            // curve stands still there is none.
-            let side = if k + 1 < SAMPLES { Side::Above } else { Side::Below };
-            let [_, d, dd] = self.jet(side, a + (b - a) * k as f64 / (SAMPLES - 1) as f64);
-            let bend = self.distance * d.perp_dot(dd) / d.length().powi(3);
-            (least, largest) = (least.min(bend), largest.max(bend));
-        }
-        let margin = MARGIN * (largest - least);
-        [least - margin, largest + margin]
     }
 
     /// Point and two derivatives of the source, from one side.

@@ -4,7 +4,7 @@ FreeCAD must be imported before numpy, so this room imports numpy only where arr
 """
 
 from .api import Field, Morphed, Part, check, library_version
-from .curves import SPACINGS, Curve, compatible, parameters
+from .curves import SPACINGS, Curve, Fillet, averaged_knots, compatible, parameters
 from .errors import (
     ArgumentError,
     BladesmithError,
@@ -15,23 +15,29 @@ from .errors import (
     NumericsError,
     SetupError,
 )
+from .sections import Branch, Projection, Section
 from .surfaces import Surface
 
 __all__ = [
     "ArgumentError",
     "BladesmithError",
+    "Branch",
     "Cancelled",
     "Curve",
     "DesignRuleError",
     "Field",
+    "Fillet",
     "InputError",
     "InternalError",
     "Morphed",
     "NumericsError",
     "Part",
+    "Projection",
     "SPACINGS",
+    "Section",
     "SetupError",
     "Surface",
+    "averaged_knots",
     "check",
     "compatible",
     "library_version",

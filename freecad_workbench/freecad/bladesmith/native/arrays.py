@@ -73,6 +73,14 @@ class Spline(_Handle):
         made._call(verb, *arguments, byref(made._handle))
         return made
 
+    @classmethod
+    def _taken(cls, several: "Several", index: int):
+        """One of several as a spline of its own."""
+        made = cls.__new__(cls)
+        _Handle.__init__(made)
+        several._call("get", several._handle, index, byref(made._handle))
+        return made
+
     def _call(self, verb: str, *arguments):
         getattr(self._core, f"bladesmith_{self._noun}_{verb}")(*arguments)
 
@@ -84,6 +92,18 @@ class Spline(_Handle):
         """What the call makes of this spline, and by how much it moved at most."""
         moved = ctypes.c_double()
         return self._changed(verb, *arguments, byref(moved)), moved.value
+
+
+class Several(Spline):
+    """Several splines that a call made; ``_one_kind`` is their class."""
+
+    _one_kind: type
+
+    def all(self) -> list:
+        """Each as a spline of its own."""
+        count = c_size_t()
+        self._call("count", self._handle, byref(count))
+        return [self._one_kind._taken(self, index) for index in range(count.value)]
 
 
 class Table(Spline):
@@ -103,8 +123,27 @@ class Table(Spline):
         return out
 
 
+def places(*outputs):
+    """Where a call writes handles."""
+    return [byref(output._handle) for output in outputs]
+
+
 def table(verb: str, noun: str, *arguments):
     """The (n, columns) array that a call returns as a table."""
     found = Table()
     getattr(found._core, f"bladesmith_{noun}_{verb}")(*arguments, byref(found._handle))
     return found.values()
+
+
+def first_hits(spline: Spline, width: int, parameters: tuple, origins, directions, tolerance):
+    """Lengths, parameters (of this shape each) and points where rays first meet a spline."""
+    import numpy
+
+    origins, directions = rows(origins, width, "origins"), rows(directions, width, "directions")
+    n = len(origins)
+    if len(directions) != n:
+        raise ValueError(f"directions must be as many as origins, {n}, not {len(directions)}")
+    out = numpy.empty(n), numpy.empty((n, *parameters)), numpy.empty((n, width))
+    given = address(origins), address(directions), n, tolerance
+    spline._call("first_hits", spline._handle, *given, *map(address, out))
+    return out

@@ -3,15 +3,47 @@
 import ctypes
 from collections.abc import Sequence
 from ctypes import byref, c_size_t, c_uint32
-from typing import Optional
+from typing import NamedTuple, Optional
 
 from .api import _core
-from .arrays import Spline, Table, address, handles, line, matrix, row, rows, table
+from .arrays import (
+    Several,
+    Spline,
+    Table,
+    address,
+    first_hits,
+    handles,
+    line,
+    matrix,
+    places,
+    row,
+    rows,
+    table,
+)
 
 SPACINGS = ("uniform", "chord", "centripetal", "affine_chord", "affine_angle")
 """How :func:`parameters` may space, in the order of the core's numbers."""
 
 _FACTORS = {"centripetal": 0.5, "affine_angle": 1.5}
+
+
+class Fillet(NamedTuple):
+    """A circular arc tangent to two curves."""
+
+    centre: list[float]
+    """(2,)."""
+    parameters: list[float]
+    """Of the points of contact on both curves."""
+    sides: list[float]
+    """1 where the centre is to the left of the curve, -1 to the right."""
+    angle: float
+    """From the first curve to the second, in rad, positive to the left."""
+    first: Optional["Curve"]
+    """What is left of the first curve."""
+    arc: Optional["Curve"]
+    """None where both points of contact are one."""
+    second: Optional["Curve"]
+    """What is left of the second curve."""
 
 
 def parameters(points, spacing: str = "chord", factor: Optional[float] = None):
@@ -33,9 +65,19 @@ def parameters(points, spacing: str = "chord", factor: Optional[float] = None):
     return out
 
 
+def averaged_knots(degree: int, t):
+    """Clamped knots (n + degree + 1,) for a curve through points at ascending parameters (n,)."""
+    import numpy
+
+    t = line(t, "t")
+    out = numpy.empty(len(t) + degree + 1)
+    _core().bladesmith_averaged_knots(degree, address(t), len(t), address(out))
+    return out
+
+
 def compatible(curves: Sequence["Curve"]) -> list["Curve"]:
     """The same curves with one degree, one domain (the first's) and the same clamped knots."""
-    made = _Curves._made("compatible", handles(curves), len(curves))
+    made = Curves._made("compatible", handles(curves), len(curves))
     return made.all()
 
 
@@ -81,6 +123,16 @@ class Curve(Spline):
         n = len(centre)
         where = [row(value, n, name) for value, name in ((centre, "centre"), (x, "x"), (y, "y"))]
         return cls._made("arc", n, *map(address, where), start, end)
+
+    @classmethod
+    def periodic(cls, degree: int, breaks, poles, weights=None) -> "Curve":
+        """The closed curve, smooth over its seam, with a pole for each span between breaks."""
+        breaks, poles = line(breaks, "breaks"), _points(poles, "poles")
+        if len(poles) != len(breaks) - 1:
+            raise ValueError(f"poles must be {len(breaks) - 1} points, not {len(poles)}")
+        weights = None if weights is None else line(weights, "weights", len(poles))
+        given = address(breaks), len(breaks), address(poles), address(weights)
+        return cls._made("periodic", poles.shape[1], degree, *given)
 
     @classmethod
     def conic(cls, start, corner, end, *, weight: float = 1.0, through=None) -> "Curve":
@@ -290,7 +342,7 @@ class Curve(Spline):
 
     def bezier_segments(self) -> list["Curve"]:
         """One by one, each over the span it came from."""
-        made = _Curves()
+        made = Curves()
         self._call("bezier", self._handle, byref(made._handle))
         return made.all()
 
@@ -323,8 +375,7 @@ class Curve(Spline):
 
     def _met(self, verb: str, *arguments):
         crossings, overlaps = Table(), Table()
-        places = byref(crossings._handle), byref(overlaps._handle)
-        self._call(verb, self._handle, *arguments, *places)
+        self._call(verb, self._handle, *arguments, *places(crossings, overlaps))
         return crossings.values(), overlaps.values()
 
     def ray(self, origin, direction, tolerance: float, *, both: bool = False):
@@ -337,16 +388,56 @@ class Curve(Spline):
         where = row(origin, n, "origin"), row(direction, n, "direction")
         return table("ray", "curve", self._handle, *map(address, where), both, tolerance)
 
+    def first_hits(self, origins, directions, tolerance: float):
+        """Lengths (n,), parameters (n,) and points (n, d) where rays first meet it, or NaN."""
+        return first_hits(self, self.dimension, (), origins, directions, tolerance)
+
     def offset(self, distance: float, tolerance: float, *, limit: float = 0.0):
         """The points at a distance, positive to the left, that are nowhere nearer: curves, pieces.
 
         Around outward corners go arcs, or straight lines that meet within ``limit`` times the
         distance. Pieces are rows curve, from, to, source_from, source_to.
         """
-        curves, pieces = _Curves(), Table()
-        places = byref(curves._handle), byref(pieces._handle)
-        self._call("offset", self._handle, distance, tolerance, limit, *places)
+        return self._moved("offset", distance, tolerance, limit)
+
+    def offset_raw(self, distance: float, tolerance: float, *, limit: float = 0.0):
+        """The whole offset, loops and all, as :meth:`offset`."""
+        return self._moved("offset_raw", distance, tolerance, limit)
+
+    def _moved(self, verb: str, *arguments):
+        curves, pieces = Curves(), Table()
+        self._call(verb, self._handle, *arguments, *places(curves, pieces))
         return curves.all(), pieces.values()
+
+    def offset_map(self, pieces, t):
+        """Parameters (n,) mapped to those that have a point in an offset, by its pieces."""
+        import numpy
+
+        pieces, t = rows(pieces, 5, "pieces"), line(t, "t")
+        out = numpy.empty(len(t))
+        given = address(pieces), len(pieces), address(t), len(t)
+        self._call("offset_map", self._handle, *given, address(out))
+        return out
+
+    def fillets(self, other: "Curve", radius: float, tolerance: float) -> list[Fillet]:
+        """All arcs of a radius that touch it and another curve in the plane, and cut neither."""
+        return self._rounded("fillets", other, radius, tolerance)
+
+    def fillet(self, other: "Curve", radius: float, tolerance: float, *, near=None):
+        """The :class:`Fillet` of the corner where ends meet, or the nearest to a point, or None."""
+        near = None if near is None else row(near, 2, "near")
+        found = self._rounded("fillet", other, radius, tolerance, address(near))
+        return found[0] if found else None
+
+    def _rounded(self, verb: str, other: "Curve", *arguments) -> list[Fillet]:
+        curves, found = Curves(), Table()
+        given = self._handle, other._handle, *arguments
+        self._call(verb, *given, *places(curves, found))
+        every = [*curves.all(), None]
+        numbers = found.values().tolist()
+        return [
+            Fillet(r[:2], r[2:4], r[4:6], r[6], *(every[int(k)] for k in r[7:])) for r in numbers
+        ]
 
 
 def _samples(degree: int, knots, t, points, weights):
@@ -359,20 +450,9 @@ def _samples(degree: int, knots, t, points, weights):
     return (*sizes, *map(address, arrays[1:]), len(points)), points, arrays
 
 
-class _Curves(Spline):
+class Curves(Several):
     """Several curves that a call made."""
 
     _free = "bladesmith_curves_free"
     _noun = "curves"
-
-    def all(self) -> list[Curve]:
-        """Each as a curve of its own."""
-        count = c_size_t()
-        self._call("count", self._handle, byref(count))
-        return [self._one(index) for index in range(count.value)]
-
-    def _one(self, index: int) -> Curve:
-        curve = Curve.__new__(Curve)
-        Spline.__init__(curve)
-        self._call("get", self._handle, index, byref(curve._handle))
-        return curve
+    _one_kind = Curve

@@ -27,8 +27,10 @@ STATUS_CALLS = {
     "bladesmith_curve_join": (_A, _A, _F, _U, _OUT),
     "bladesmith_curve_bezier": (_A, _OUT),
     "bladesmith_curve_arc": (_U, _A, _A, _A, _F, _F, _OUT),
+    "bladesmith_curve_periodic": (_U, _U, _A, _N, _A, _A, _OUT),
     "bladesmith_curve_conic": (_U, _A, _A, _A, _A, _F, _OUT),
     "bladesmith_parameters": (_U, _A, _N, _U, _F, _A),
+    "bladesmith_averaged_knots": (_U, _A, _N, _A),
     "bladesmith_curve_interpolate": (_U, _U, _A, _A, _A, _N, _A, _N, _OUT),
     "bladesmith_curve_fit": (*_SAMPLES, _A, _N, _A, _N, _OUT),
     "bladesmith_curve_smooth": (*_SAMPLES, _F, _OUT),
@@ -38,7 +40,12 @@ STATUS_CALLS = {
     "bladesmith_curve_intersect": (_A, _A, _F, _OUT, _OUT),
     "bladesmith_curve_self_intersect": (_A, _F, _OUT, _OUT),
     "bladesmith_curve_ray": (_A, _A, _A, _U, _F, _OUT),
+    "bladesmith_curve_first_hits": (_A, _A, _A, _N, _F, _A, _A, _A),
     "bladesmith_curve_offset": (_A, _F, _F, _F, _OUT, _OUT),
+    "bladesmith_curve_offset_raw": (_A, _F, _F, _F, _OUT, _OUT),
+    "bladesmith_curve_offset_map": (_A, _A, _N, _A, _N, _A),
+    "bladesmith_curve_fillets": (_A, _A, _F, _F, _OUT, _OUT),
+    "bladesmith_curve_fillet": (_A, _A, _F, _F, _A, _OUT, _OUT),
     "bladesmith_curves_compatible": (_OUT, _N, _OUT),
     "bladesmith_curves_count": (_A, POINTER(_N)),
     "bladesmith_curves_get": (_A, _N, _OUT),
@@ -46,6 +53,7 @@ STATUS_CALLS = {
     "bladesmith_surface_size": (_A, *[POINTER(_U)] * 2, *[POINTER(_N)] * 2, POINTER(_U)),
     "bladesmith_surface_data": (_A, _N, _A, _A, _A, _A),
     "bladesmith_surface_evaluate": (_A, _A, _N, _U, _U, _U, _A),
+    "bladesmith_surface_evaluate_grid": (_A, _A, _N, _A, _N, _U, _A),
     "bladesmith_surface_curvatures": (_A, _A, _N, _A, _A, _A),
     "bladesmith_surface_refine": (_A, _U, _A, _N, _OUT),
     "bladesmith_surface_remove_knot": (_A, _U, _F, _U, _F, _A, _OUT),
@@ -53,6 +61,8 @@ STATUS_CALLS = {
     "bladesmith_surface_reduce": (_A, _U, _F, _A, _OUT),
     "bladesmith_surface_part": (_A, _U, _F, _F, _OUT),
     "bladesmith_surface_reverse": (_A, _U, _OUT),
+    "bladesmith_surface_over": (_A, _U, _F, _F, _OUT),
+    "bladesmith_surface_bezier": (_A, _OUT),
     "bladesmith_surface_swap": (_A, _OUT),
     "bladesmith_surface_clamp": (_A, _OUT),
     "bladesmith_surface_map": (_A, _A, _OUT),
@@ -64,7 +74,16 @@ STATUS_CALLS = {
     "bladesmith_surface_nearest": (_A, _A, _N, _A, _A, _A),
     "bladesmith_surface_nearest_all": (_A, _A, _F, _OUT),
     "bladesmith_surface_ray": (_A, _A, _A, _U, _F, _OUT),
+    "bladesmith_surface_first_hits": (_A, _A, _A, _N, _F, _A, _A, _A),
     "bladesmith_surface_offset": (_A, _F, _F, _A, _OUT),
+    "bladesmith_surface_section": (_A, _A, _A, _F, _OUT),
+    "bladesmith_surface_intersect": (_A, _A, _F, _OUT),
+    "bladesmith_surface_project": (_A, _A, _A, _F, _OUT, _OUT, _OUT),
+    "bladesmith_surfaces_count": (_A, POINTER(_N)),
+    "bladesmith_surfaces_get": (_A, _N, _OUT),
+    "bladesmith_section_branches": (_A, _OUT, _OUT, _OUT, _OUT),
+    "bladesmith_section_contacts": (_A, _OUT, _OUT, _OUT),
+    "bladesmith_section_axes": (_A, _A),
     "bladesmith_table_size": (_A, POINTER(_N), POINTER(_N)),
     "bladesmith_table_data": (_A, _N, _A),
 }
@@ -72,6 +91,6 @@ STATUS_CALLS = {
 
 OTHER_CALLS = {
     f"bladesmith_{noun}_free": (None, (c_void_p,))
-    for noun in ("curve", "curves", "surface", "table")
+    for noun in ("curve", "curves", "surface", "surfaces", "section", "table")
 }
 """Result and argument types of the other calls."""

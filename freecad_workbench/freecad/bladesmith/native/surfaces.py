@@ -3,8 +3,20 @@
 from collections.abc import Sequence
 from ctypes import byref, c_size_t, c_uint32
 
-from .arrays import Spline, address, handles, line, matrix, row, rows, table
+from .arrays import (
+    Several,
+    Spline,
+    address,
+    first_hits,
+    handles,
+    line,
+    matrix,
+    row,
+    rows,
+    table,
+)
 from .curves import Curve
+from .sections import Projection, Section, projected, section
 
 _DIRECTIONS = {"u": 0, "v": 1}
 
@@ -136,6 +148,16 @@ class Surface(Spline):
         """(n, 3) at parameters (n, 2)."""
         return self.evaluate(uv)[:, 0]
 
+    def evaluate_grid(self, u, v, order: int = 0):
+        """(n, m, (order + 1)(order + 2) / 2, 3) on the grid of u (n,) and v (m,); order to 2."""
+        import numpy
+
+        u, v = line(u, "u"), line(v, "v")
+        out = numpy.empty((len(u), len(v), (order + 1) * (order + 2) // 2, 3))
+        given = address(u), len(u), address(v), len(v)
+        self._call("evaluate_grid", self._handle, *given, order, address(out))
+        return out
+
     def curvatures(self, uv):
         """Normals (n, 3), principal curvatures (n, 2), ascending, and directions (n, 2, 3)."""
         import numpy
@@ -177,6 +199,16 @@ class Surface(Spline):
     def reversed(self, direction: str) -> "Surface":
         """Run backwards."""
         return self._changed("reverse", _direction(direction))
+
+    def over(self, direction: str, start: float, end: float) -> "Surface":
+        """Over another domain along a direction."""
+        return self._changed("over", _direction(direction), start, end)
+
+    def bezier_patches(self) -> list["Surface"]:
+        """Between neighbouring knots, those along v next to each other."""
+        made = _Surfaces()
+        self._call("bezier", self._handle, byref(made._handle))
+        return made.all()
 
     def swapped(self) -> "Surface":
         """With u and v exchanged."""
@@ -222,6 +254,32 @@ class Surface(Spline):
         where = row(origin, 3, "origin"), row(direction, 3, "direction")
         return table("ray", "surface", self._handle, *map(address, where), both, tolerance)
 
+    def first_hits(self, origins, directions, tolerance: float):
+        """Lengths (n,), parameters (n, 2) and points (n, 3) where rays first meet it, or NaN."""
+        return first_hits(self, 3, (2,), origins, directions, tolerance)
+
+    def section(self, origin, normal, tolerance: float) -> Section:
+        """Where it meets the plane through a point across a direction."""
+        where = row(origin, 3, "origin"), row(normal, 3, "normal")
+        return section(self, "section", *map(address, where), tolerance, in_plane=True)
+
+    def intersect(self, other: "Surface", tolerance: float) -> Section:
+        """Where it meets another surface."""
+        return section(self, "intersect", other._handle, tolerance)
+
+    def project(self, curve: Curve, tolerance: float, *, direction=None) -> list[Projection]:
+        """A curve in space projected to its nearest points, or along a direction."""
+        direction = None if direction is None else row(direction, 3, "direction")
+        return projected(self, curve, address(direction), tolerance)
+
     def offset(self, distance: float, tolerance: float) -> tuple["Surface", float]:
         """Along the normals, over the same domain; and how far from the true offset it was seen."""
         return self._changed_within("offset", distance, tolerance)
+
+
+class _Surfaces(Several):
+    """Several surfaces that a call made."""
+
+    _free = "bladesmith_surfaces_free"
+    _noun = "surfaces"
+    _one_kind = Surface

@@ -1,0 +1,7 @@
+//! Splines against exact arithmetic.
+
+mod curves;
+mod exact;
+mod reshape;
+mod surfaces;
+mod wild;
