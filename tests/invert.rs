@@ -166,6 +166,36 @@ fn the_nose_of_a_blade_keeps_its_feet() {
     }
 }
 
+/// Most beside the shape, where one foot leads to the next, and some far from everything.
+#[test]
+fn long_batches_find_what_single_questions_find() {
+    let mut random = Random(7);
+    for (degrees, rational) in [([3, 3], false), ([5, 3], true), ([1, 2], false)] {
+        let surface = random_surface(&mut random, degrees, rational);
+        let inverter = SurfaceInverter::new(&surface).unwrap();
+        let curve = random_curve(&mut random, degrees[0], rational);
+        let along = CurveInverter::new(&curve).unwrap();
+        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+        let (a, b) = curve.knots().domain();
+        let (mut beside, mut near) = (Vec::new(), Vec::new());
+        for k in 0..3000 {
+            let off = random.vector(if k % 10 == 0 { 20.0 } else { 0.05 });
+            beside.push(surface.point(random.within(u0, u1), random.within(v0, v1)) + off);
+            near.push(curve.point(random.within(a, b)) + off);
+        }
+        for (&p, found) in beside.iter().zip(inverter.nearest_many(&beside)) {
+            let one = inverter.nearest(p).distance;
+            assert!((found.distance - one).abs() < 1e-12, "{degrees:?}: {found:?} instead of {one} from {p}");
+            assert!(surface.point(found.at.x, found.at.y).distance(found.point) < 1e-12, "{found:?}");
+        }
+        for (&p, found) in near.iter().zip(along.nearest_many(&near)) {
+            let one = along.nearest(p).distance;
+            assert!((found.distance - one).abs() < 1e-12, "{degrees:?}: {found:?} instead of {one} from {p}");
+            assert!(curve.point(found.at).distance(found.point) < 1e-12, "{found:?}");
+        }
+    }
+}
+
 /// A full circle of nine poles.
 fn circle() -> NurbsCurve<DVec2> {
     let s = std::f64::consts::FRAC_1_SQRT_2;

@@ -2,9 +2,10 @@
 //! surfaces (Lüken 2022, algorithm 5, printed as a root search of the distance, made a sound
 //! minimisation).
 
+use super::batch::nearest_many;
 use super::bezier::{CurvePiece, curve_pieces};
-use super::search::{Search, Shape, stationary};
-use super::tree::{Bounds, Tree, joined};
+use super::search::{Index, Search, Shape, stationary};
+use super::tree::{Bounds, joined};
 use super::{Nearest, SAME, check_size};
 use crate::error::Result;
 use crate::nurbs::{NurbsCurve, Point, Side};
@@ -108,9 +109,7 @@ impl<P: Point> Arc<P> {
 #[derive(Debug, Clone)]
 pub struct CurveInverter<P: Point> {
     curve: NurbsCurve<P>,
-    arcs: Vec<Arc<P>>,
-    tubes: Vec<Tube<P>>,
-    tree: Tree,
+    index: Index<Self>,
     extent: f64,
 }
 
@@ -133,10 +132,8 @@ impl<P: Point> CurveInverter<P> {
                 arcs.push(arc);
             }
         }
-        let tree = Tree::new(&mut arcs, Arc::bounds);
-        let tubes = arcs.iter().map(|arc| arc.tube).collect();
         let extent = curve.poles().iter().map(|&x| (x - curve.poles()[0]).length()).fold(0.0, f64::max);
-        Ok(Self { curve, arcs, tubes, tree, extent })
+        Ok(Self { curve, index: Index::new(arcs), extent })
     }
 
     /// The curve.
@@ -146,19 +143,19 @@ impl<P: Point> CurveInverter<P> {
 
     /// The nearest point to `p`, globally; `p` of a size that [`check_size`] allows.
     pub fn nearest(&self, p: P) -> Nearest<f64, P> {
-        self.search(p, None).best
+        Search::new(self, &self.index, p, None).run().best
     }
 
     /// All points of the curve that are as near to `p` as the nearest, to within `tie` (in the
     /// unit of the points), the nearest first. Where a whole stretch is, some of its points.
     pub fn nearest_all(&self, p: P, tie: f64) -> Vec<Nearest<f64, P>> {
-        self.search(p, Some(tie)).ties()
+        Search::new(self, &self.index, p, Some(tie)).run().ties()
     }
 
-    fn search(&self, p: P, tie: Option<f64>) -> Search<'_, Self> {
-        let mut search = Search::new(self, p, tie, None);
-        search.descend(&self.tree, &self.arcs, &self.tubes);
-        search
+    /// The nearest points to many, in their order. Points that lie together in space share what is
+    /// found out about one of them.
+    pub fn nearest_many(&self, points: &[P]) -> Vec<Nearest<f64, P>> {
+        nearest_many(self, &self.index, points)
     }
 }
 
@@ -174,6 +171,10 @@ impl<P: Point> Shape for CurveInverter<P> {
 
     fn hull(arc: &Arc<P>) -> Tube<P> {
         arc.tube
+    }
+
+    fn bounds(arc: &Arc<P>) -> Bounds {
+        arc.bounds()
     }
 
     fn bound(tube: &Tube<P>, p: P) -> f64 {

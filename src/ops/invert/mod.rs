@@ -1,6 +1,7 @@
 //! Point inversion: the parameters of the nearest point of a curve or surface, always the global
 //! one, with all ties on request.
 
+mod batch;
 pub mod bezier;
 pub mod curve;
 mod patch;

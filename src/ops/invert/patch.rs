@@ -1,6 +1,6 @@
 //! A piece of a surface with what bounds it.
 //!
-//! A box in the directions of the piece holds its control points, and with them the piece.
+//! A prism whose sides follow those of the piece holds its control points, and with them the piece.
 //!
 //! A foot `q` of `p` on the piece is the only nearest point there if `|S − p|² − |q − p|²` stays
 //! positive over it. With `r = q − p`, and for a step `δ` of the parameters from `q`, that is at
@@ -28,6 +28,8 @@ pub struct Patch {
     high: DVec2,
     /// What holds the control points.
     pub hull: Hull,
+    /// A box along the axes that does.
+    pub bounds: Bounds,
     taylor: Taylor,
     spread: Spread,
     /// Largest distance of a control point from the centre.
@@ -37,31 +39,38 @@ pub struct Patch {
     pub depth: usize,
 }
 
-/// A box in the directions of a piece.
+/// A prism along the normal of a piece, whose sides follow those of the piece: two of its three
+/// pairs of parallel planes are at right angles to the third.
 #[derive(Debug, Clone, Copy)]
 pub struct Hull {
     centre: DVec3,
-    /// Rows: the directions.
+    /// Rows: unit normals of the planes, the last one at right angles to the others.
     frame: DMat3,
-    /// Extent from the centre, in that frame.
+    /// Extent from the centre along them.
     low: DVec3,
     high: DVec3,
 }
 
 impl Hull {
+    /// Around nothing yet.
+    fn new(centre: DVec3, middle: &SurfaceDerivatives) -> Self {
+        let sides =
+            |n: DVec3| Some([middle.v.cross(n).try_normalize()?, n.cross(middle.u).try_normalize()?, n]);
+        let [a, b, n] = middle.normal().try_normalize().and_then(sides).unwrap_or(DVec3::AXES);
+        Self { centre, frame: DMat3::from_cols(a, b, n).transpose(), low: DVec3::MAX, high: DVec3::MIN }
+    }
+
+    fn include(&mut self, x: DVec3) {
+        let local = self.frame * (x - self.centre);
+        (self.low, self.high) = (self.low.min(local), self.high.max(local));
+    }
+
     /// A lower bound of the squared distance to `p`.
     pub fn nearest_squared(&self, p: DVec3) -> f64 {
         let local = self.frame * (p - self.centre);
-        (self.low - local).max(local - self.high).max(DVec3::ZERO).length_squared()
-    }
-
-    /// A box along the axes.
-    pub fn bounds(&self) -> Bounds {
-        let axes = self.frame.transpose();
-        let middle = self.centre + axes * (0.5 * (self.low + self.high));
-        let half = 0.5 * (self.high - self.low);
-        let reach = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
-        [(middle - reach).to_array(), (middle + reach).to_array()]
+        let off = (self.low - local).max(local - self.high).max(DVec3::ZERO);
+        let side = off.x.max(off.y);
+        side * side + off.z * off.z
     }
 }
 
@@ -87,24 +96,20 @@ impl Patch {
         let [[u0, u1], [v0, v1]] = piece.range;
         let taylor = Taylor::new(&piece, powers, rational);
         let middle = taylor.middle();
-        let normal = middle.normal().try_normalize();
-        let (e1, n) = match (middle.u.try_normalize(), normal) {
-            (Some(e1), Some(n)) => (e1, n),
-            _ => (DVec3::X, DVec3::Z),
-        };
-        let frame = DMat3::from_cols(e1, n.cross(e1), n).transpose();
-        let mut hull = Hull { centre: taylor.centre, frame, low: DVec3::MAX, high: DVec3::MIN };
+        let mut hull = Hull::new(taylor.centre, &middle);
+        let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
         let mut squared = 0.0f64;
         for x in piece.points() {
-            let local = frame * (x - taylor.centre);
-            (hull.low, hull.high) = (hull.low.min(local), hull.high.max(local));
-            squared = squared.max(local.length_squared());
+            hull.include(x);
+            (low, high) = (low.min(x), high.max(x));
+            squared = squared.max(x.distance_squared(taylor.centre));
         }
+        let bounds = [low.to_array(), high.to_array()];
         let size = squared.sqrt();
         let least_weight = piece.weights.iter().copied().fold(f64::INFINITY, f64::min);
         let spread = Spread::new(&taylor, &middle, size, least_weight);
         let (low, high) = (DVec2::new(u0, v0), DVec2::new(u1, v1));
-        Self { low, high, hull, taylor, spread, size, piece, depth }
+        Self { low, high, hull, bounds, taylor, spread, size, piece, depth }
     }
 
     /// A local minimum of the distance to `p`, in parameters −1..1 and relative to the centre.

@@ -1,10 +1,11 @@
 //! The search that curves and surfaces share: branch and bound over pieces, the nearest first.
 
 use super::Nearest;
-use super::tree::Tree;
+use super::tree::{Bounds, Neighbour, Neighbours, Tree};
 use crate::nurbs::Point;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::sync::OnceLock;
 
 /// Pieces below this fraction of the whole are points.
 const SMALLEST: f64 = 1e-10;
@@ -14,6 +15,9 @@ const SLOPE: f64 = 1e-9;
 /// centre of a sphere, asks for more, and then any of its points is right.
 const HALVINGS: usize = 4096;
 
+/// Steps from a piece to a nearer one, at most.
+const WALK: usize = 8;
+
 /// A curve or surface whose nearest points are sought.
 pub trait Shape {
     /// Parameters.
@@ -21,14 +25,16 @@ pub trait Shape {
     /// Points.
     type Point: Point;
     /// Pieces with their bounds.
-    type Piece: Clone;
+    type Piece: Clone + std::fmt::Debug;
     /// What holds a piece.
-    type Hull: Copy;
+    type Hull: Copy + std::fmt::Debug;
 
     /// Size of the whole, in the unit of the points.
     fn extent(&self) -> f64;
     /// What holds a piece.
     fn hull(piece: &Self::Piece) -> Self::Hull;
+    /// A box around a piece.
+    fn bounds(piece: &Self::Piece) -> Bounds;
     /// A lower bound of the squared distance from a hull.
     fn bound(hull: &Self::Hull, p: Self::Point) -> f64;
     /// Size of the piece, in the unit of the points.
@@ -43,12 +49,41 @@ pub trait Shape {
     fn same(&self, a: Self::At, b: Self::At) -> bool;
 }
 
+/// The pieces of a shape, so that near ones are found.
+#[derive(Debug, Clone)]
+pub struct Index<S: Shape> {
+    pieces: Vec<S::Piece>,
+    /// Side by side for the search.
+    hulls: Vec<S::Hull>,
+    tree: Tree,
+    neighbours: OnceLock<Neighbours>,
+}
+
+impl<S: Shape> Index<S> {
+    /// Of all pieces.
+    pub fn new(mut pieces: Vec<S::Piece>) -> Self {
+        let tree = Tree::new(&mut pieces, S::bounds);
+        let hulls = pieces.iter().map(S::hull).collect();
+        Self { pieces, hulls, tree, neighbours: OnceLock::new() }
+    }
+
+    fn neighbours(&self) -> &Neighbours {
+        self.neighbours.get_or_init(|| {
+            let boxes: Vec<Bounds> = self.pieces.iter().map(S::bounds).collect();
+            Neighbours::new(&self.tree, &boxes)
+        })
+    }
+}
+
 /// One query.
 pub struct Search<'a, S: Shape> {
     shape: &'a S,
+    index: &'a Index<S>,
     p: S::Point,
     /// The nearest point so far.
     pub best: Nearest<S::At, S::Point>,
+    /// The piece that it is on, or was before that was halved.
+    pub nearest: usize,
     /// Beyond this squared distance nothing matters.
     reach_squared: f64,
     tie: Option<f64>,
@@ -58,25 +93,76 @@ pub struct Search<'a, S: Shape> {
 
 impl<'a, S: Shape> Search<'a, S> {
     /// For the nearest point to `p`, and with `tie` for all that are as near to within so much.
-    /// `known` is some point of the shape, if one is known.
-    pub fn new(shape: &'a S, p: S::Point, tie: Option<f64>, known: Option<Nearest<S::At, S::Point>>) -> Self {
-        let none = Nearest { at: S::At::default(), point: p, distance: f64::INFINITY };
-        let best = known.map_or(none, |k| Nearest { distance: (k.point - p).length(), ..k });
-        let mut search =
-            Self { shape, p, best, reach_squared: 0.0, tie, found: Vec::new(), rest: BinaryHeap::new() };
-        search.improve(best);
-        search
+    pub fn new(shape: &'a S, index: &'a Index<S>, p: S::Point, tie: Option<f64>) -> Self {
+        let best = Nearest { at: S::At::default(), point: p, distance: f64::INFINITY };
+        let (found, rest) = (Vec::new(), BinaryHeap::new());
+        Self { shape, index, p, best, nearest: 0, reach_squared: f64::INFINITY, tie, found, rest }
     }
 
-    /// Visits the pieces of a tree, the nearest first; their hulls stand side by side.
-    pub fn descend(&mut self, tree: &Tree, pieces: &[S::Piece], hulls: &[S::Hull]) {
-        let p = self.p;
-        let bound = |leaf: usize| S::bound(&hulls[leaf], p);
-        tree.descend(p.coordinates(), self.reach_squared, bound, |leaf, bound| {
-            self.visit(&pieces[leaf], bound);
+    /// Finds what is nearest among all pieces.
+    pub fn run(mut self) -> Self {
+        self.descend();
+        self.finish();
+        self
+    }
+
+    /// The same where some piece is known from which the nearest cannot be far; `near` is scratch.
+    ///
+    /// A point of a piece at the distance `a` from `p` is at least as far from any other piece as the
+    /// boxes of both are apart, and `p` by up to `a` less.
+    pub fn run_near(mut self, mut guess: usize, near: &mut Vec<(f64, Neighbour)>) -> Self {
+        let neighbours = self.index.neighbours();
+        for _ in 0..WALK {
+            let (p, hulls) = (self.p, &self.index.hulls);
+            near.clear();
+            near.extend(neighbours.of(guess).iter().map(|n| (S::bound(&hulls[n.leaf], p), *n)));
+            let mut nearest = (S::bound(&hulls[guess], p), guess);
+            for (bound, n) in &*near {
+                if *bound < nearest.0 {
+                    nearest = (*bound, n.leaf);
+                }
+            }
+            if nearest.1 == guess {
+                break;
+            }
+            guess = nearest.1;
+        }
+        let a = self.visit_leaf(guess, 0.0);
+        let reach = neighbours.reach(guess);
+        if reach > a {
+            near.retain(|(bound, n)| n.leaf != guess && *bound <= self.reach_squared);
+            near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            for (bound, n) in &*near {
+                if n.gap <= a + self.best.distance {
+                    self.visit_leaf(n.leaf, *bound);
+                }
+            }
+        }
+        if reach <= a + self.best.distance {
+            self.descend();
+        }
+        self.finish();
+        self
+    }
+
+    /// Visits the pieces of the tree, the nearest first.
+    fn descend(&mut self) {
+        let (index, p) = (self.index, self.p);
+        let bound = |leaf: usize| S::bound(&index.hulls[leaf], p);
+        index.tree.descend([p.coordinates(); 2], self.reach_squared, bound, |leaf, bound| {
+            self.visit_leaf(leaf, bound);
             self.reach_squared
         });
-        self.finish();
+    }
+
+    /// Returns the distance of the foot there.
+    fn visit_leaf(&mut self, leaf: usize, bound: f64) -> f64 {
+        let before = self.best.distance;
+        let distance = self.visit(&self.index.pieces[leaf], bound);
+        if self.best.distance < before {
+            self.nearest = leaf;
+        }
+        distance
     }
 
     fn improve(&mut self, best: Nearest<S::At, S::Point>) {
@@ -84,9 +170,10 @@ impl<'a, S: Shape> Search<'a, S> {
         (self.best, self.reach_squared) = (best, reach * reach);
     }
 
-    fn visit(&mut self, piece: &S::Piece, bound: f64) {
+    /// Returns the distance of the foot there.
+    fn visit(&mut self, piece: &S::Piece, bound: f64) -> f64 {
         if bound > self.reach_squared {
-            return;
+            return f64::INFINITY;
         }
         let (found, only) = self.shape.foot(piece, self.p);
         if found.distance < self.best.distance {
@@ -99,6 +186,7 @@ impl<'a, S: Shape> Search<'a, S> {
         if !only && S::size(piece) > SMALLEST * self.shape.extent() + rounding {
             self.rest.push(Pending { bound, piece: piece.clone() });
         }
+        found.distance
     }
 
     /// Halves the pieces on which there may be more minima.

@@ -2,6 +2,8 @@
 
 /// Marks a child as a leaf; the other bits are its index.
 const LEAF: u32 = 1 << 31;
+/// Leaves are near if their boxes are apart by no more than this part of their size.
+const NEAR: f64 = 0.1;
 /// Nodes that wait to be visited, in most queries.
 const WAITING: usize = 64;
 
@@ -57,12 +59,12 @@ impl Tree {
         at as u32
     }
 
-    /// Visits the leaves, the nearest first, as far as they may matter: `bound` is a lower bound of
-    /// the squared distance from a leaf, `visit` returns that beyond which nothing matters any more.
-    /// Nothing beyond `reach` matters to begin with.
+    /// Visits the leaves, the nearest to a box first, as far as they may matter: `bound` is a lower
+    /// bound of the squared distance from a leaf, `visit` returns that beyond which nothing matters
+    /// any more. Nothing beyond `reach` matters to begin with.
     pub fn descend(
         &self,
-        p: [f64; 3],
+        from: Bounds,
         mut reach: f64,
         bound: impl Fn(usize) -> f64,
         mut visit: impl FnMut(usize, f64) -> f64,
@@ -79,7 +81,7 @@ impl Tree {
                 continue;
             }
             let node = &self.nodes[at as usize];
-            for (&child, &d) in node.children.iter().zip(&node.squared_distances(p)) {
+            for (&child, &d) in node.children.iter().zip(&node.squared_distances(&from)) {
                 if d > reach || d == f64::INFINITY {
                     continue;
                 }
@@ -94,17 +96,70 @@ impl Tree {
 }
 
 impl Node {
-    fn squared_distances(&self, p: [f64; 3]) -> [f64; 4] {
+    fn squared_distances(&self, [low, high]: &Bounds) -> [f64; 4] {
         let mut sum = [0.0; 4];
         for axis in 0..3 {
             for k in 0..4 {
-                let (below, above) = (self.low[axis][k] - p[axis], p[axis] - self.high[axis][k]);
+                let (below, above) = (self.low[axis][k] - high[axis], low[axis] - self.high[axis][k]);
                 let off = if below > above { below } else { above };
                 let off = if off > 0.0 { off } else { 0.0 };
                 sum[k] += off * off;
             }
         }
         sum
+    }
+}
+
+/// Which leaves are near which.
+#[derive(Debug, Clone)]
+pub struct Neighbours {
+    near: Vec<Neighbour>,
+    ends: Vec<usize>,
+    reach: Vec<f64>,
+}
+
+/// One of them.
+#[derive(Debug, Clone, Copy)]
+pub struct Neighbour {
+    /// Its number.
+    pub leaf: usize,
+    /// The distance between both boxes.
+    pub gap: f64,
+}
+
+impl Neighbours {
+    /// Of a tree whose leaves have these boxes.
+    pub fn new(tree: &Tree, boxes: &[Bounds]) -> Self {
+        let mut out = Self { near: Vec::new(), ends: vec![0], reach: Vec::new() };
+        let mut waiting = Vec::new();
+        for bounds in boxes {
+            let [low, high] = bounds;
+            let reach = NEAR * (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+            waiting.push(0);
+            while let Some(at) = waiting.pop() {
+                let node = &tree.nodes[at as usize];
+                for (&child, &d) in node.children.iter().zip(&node.squared_distances(bounds)) {
+                    match child & LEAF {
+                        _ if d > reach * reach => {}
+                        0 => waiting.push(child),
+                        _ => out.near.push(Neighbour { leaf: (child ^ LEAF) as usize, gap: d.sqrt() }),
+                    }
+                }
+            }
+            out.ends.push(out.near.len());
+            out.reach.push(reach);
+        }
+        out
+    }
+
+    /// Those of a leaf, itself among them.
+    pub fn of(&self, leaf: usize) -> &[Neighbour] {
+        &self.near[self.ends[leaf]..self.ends[leaf + 1]]
+    }
+
+    /// How far all others are from its box at least.
+    pub fn reach(&self, leaf: usize) -> f64 {
+        self.reach[leaf]
     }
 }
 
@@ -145,7 +200,7 @@ mod tests {
                 let squared = |p: &[f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>();
                 let (mut best, mut visits) = (f64::INFINITY, 0);
                 let bound = |leaf: usize| squared(&points[leaf]);
-                tree.descend(q, f64::INFINITY, bound, |leaf, _| {
+                tree.descend([q, q], f64::INFINITY, bound, |leaf, _| {
                     visits += 1;
                     best = best.min(squared(&points[leaf]));
                     best
