@@ -50,30 +50,31 @@ impl NurbsSurface {
 
     /// The bilinearly blended Coons patch between two curves along `u` (at the start and the end of
     /// `v`) and two along `v` (at the start and the end of `u`). Domains are those of the first of
-    /// each pair.
+    /// each pair. Where one is rational, all are blended with their weights, those of the corners
+    /// made one: the borders keep their shapes and parameters.
     ///
     /// # Errors
-    /// [`Error::Spline`] when the curves do not meet in four corners or are rational, whose blend
-    /// is no NURBS of a sensible degree.
+    /// [`Error::Spline`] when the curves do not meet in four corners, and for rational ones whose
+    /// weights fall so far below those of their ends that the blend has none above zero.
     pub fn coons(along_u: [&NurbsCurve<DVec3>; 2], along_v: [&NurbsCurve<DVec3>; 2]) -> Result<Self> {
-        if along_u.iter().chain(&along_v).any(|c| c.weights().is_some()) {
-            let why = "a Coons patch takes polynomial curves only: approximate the rational ones first";
-            return Err(Error::Spline { why: why.into() });
-        }
         let corners = corners(along_u, along_v)?;
+        let is_rational = along_u.iter().chain(&along_v).any(|c| c.weights().is_some());
+        let of = |curve: &NurbsCurve<DVec3>| {
+            if is_rational { curve.with_ends_of_weight_one() } else { Ok(curve.clone()) }
+        };
         let across = |pair: [&NurbsCurve<DVec3>; 2], other: &NurbsCurve<DVec3>| {
             let (a, b) = other.knots().domain();
-            let ruled = Self::ruled(pair[0], pair[1])?;
-            Self::new(ruled.knots_u().clone(), ruled.knots_v().over(a, b)?, ruled.poles().to_vec(), None)
+            let ruled = Self::ruled(&of(pair[0])?, &of(pair[1])?)?;
+            let weights = ruled.weights().map(<[f64]>::to_vec);
+            Self::new(ruled.knots_u().clone(), ruled.knots_v().over(a, b)?, ruled.poles().to_vec(), weights)
         };
         let first = across(along_u, along_v[0])?;
         let second = across(along_v, along_u[0])?.swapped();
         let (u, v) = (along_u[0].knots().domain(), along_v[0].knots().domain());
         let line = |(a, b): (f64, f64)| KnotVector::clamped(1, &[a, b]);
-        let plane = Self::new(line(u)?, line(v)?, corners, None)?;
+        let plane = Self::new(line(u)?, line(v)?, corners, is_rational.then(|| vec![1.0; 4]))?;
         let [a, b, c] = same_knots([first, second, plane])?;
-        let poles = (0..a.poles().len()).map(|i| a.poles()[i] + b.poles()[i] - c.poles()[i]).collect();
-        Self::new(a.knots_u().clone(), a.knots_v().clone(), poles, None)
+        boolean_sum(&a, &b, &c)
     }
 
     /// The same surface with its directions exchanged.
@@ -85,6 +86,26 @@ impl NurbsSurface {
         Self::new(self.knots_v().clone(), self.knots_u().clone(), poles, weights)
             .expect("the same values in another order")
     }
+}
+
+/// `a + b - c` in homogeneous coordinates, for surfaces over the same knots.
+fn boolean_sum(a: &NurbsSurface, b: &NurbsSurface, c: &NurbsSurface) -> Result<NurbsSurface> {
+    let weight = |s: &NurbsSurface, i: usize| s.weights().map_or(1.0, |w| w[i]);
+    let pole = |i: usize| {
+        let total = weight(a, i) + weight(b, i) - weight(c, i);
+        let [p, q, r] = [a, b, c].map(|s| s.poles()[i] * weight(s, i));
+        ((p + q - r) / total, total)
+    };
+    let (poles, weights): (Vec<_>, Vec<_>) = (0..a.poles().len()).map(pole).unzip();
+    if let Some(w) = weights.iter().find(|w| **w <= 1e-6) {
+        let why = format!(
+            "the weights of the borders fall so far below those of the corners that {w} is left within: \
+             split the borders, or approximate them by polynomial curves"
+        );
+        return Err(Error::Spline { why });
+    }
+    let weights = a.weights().is_some().then_some(weights);
+    NurbsSurface::new(a.knots_u().clone(), a.knots_v().clone(), poles, weights)
 }
 
 /// Where the curves meet: (0, 0), (0, 1), (1, 0), (1, 1).
@@ -164,6 +185,39 @@ mod tests {
         assert!(NurbsSurface::revolved(&meridian, DVec3::ZERO, DVec3::ZERO, 1.0).is_err());
     }
 
+    /// Whether the borders at the start and end of v, then of u, are these curves.
+    fn check_borders(s: &NurbsSurface, curves: &[NurbsCurve<DVec3>; 4]) {
+        let ((u0, u1), (v0, v1)) = (s.knots_u().domain(), s.knots_v().domain());
+        for i in 0..=50 {
+            let t = i as f64 / 50.0;
+            let (u, v) = (u0 + (u1 - u0) * t, v0 + (v1 - v0) * t);
+            let places = [(u, v0), (u, v1), (u0, v), (u1, v)];
+            for (k, (u, v)) in places.into_iter().enumerate() {
+                let (a, b) = curves[k].knots().domain();
+                let (is, expected) = (s.point(u, v), curves[k].point(a + (b - a) * t));
+                assert!(is.distance(expected) < 1e-14, "border {k} at {t}: {is} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_coons_patch_between_arcs_has_round_borders() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
+        let arc = |from: usize, to: usize, up: f64| {
+            let (a, b) = (corners[from], corners[to]);
+            NurbsCurve::conic(a, 0.5 * (a + b) + DVec3::Z * up, b, 0.8).unwrap()
+        };
+        let all = [arc(0, 1, 0.3), arc(2, 3, -0.2), arc(0, 2, 0.5), arc(1, 3, 0.4)];
+        check_borders(&NurbsSurface::coons([&all[0], &all[1]], [&all[2], &all[3]]).unwrap(), &all);
+        let sharp = |from: usize, to: usize| {
+            let (a, b) = (corners[from], corners[to]);
+            NurbsCurve::conic(a, 0.5 * (a + b) + DVec3::Z, b, 0.4).unwrap()
+        };
+        let all = [sharp(0, 1), sharp(2, 3), sharp(0, 2), sharp(1, 3)];
+        let message = NurbsSurface::coons([&all[0], &all[1]], [&all[2], &all[3]]).unwrap_err().to_string();
+        assert!(message.contains("split the borders"), "{message}");
+    }
+
     #[test]
     fn a_coons_patch_has_its_four_borders() {
         let bump = |t: f64| t * (1.0 - t);
@@ -171,19 +225,15 @@ mod tests {
         let c1 = curve(2, &[0.0, 2.0], |t| DVec3::new(0.5 * t, 1.0, -bump(0.5 * t)));
         let d0 = curve(2, &[1.0, 1.6, 2.0], |t| DVec3::new(0.0, t - 1.0, 2.0 * bump(t - 1.0)));
         let d1 = curve(4, &[1.0, 2.0], |t| DVec3::new(1.0, t - 1.0, bump(t - 1.0).powi(2)));
-        let s = NurbsSurface::coons([&c0, &c1], [&d0, &d1]).unwrap();
-        for i in 0..=50 {
-            let t = i as f64 / 50.0;
-            let pairs = [
-                (s.point(t, 1.0), c0.point(t)),
-                (s.point(t, 2.0), c1.point(2.0 * t)),
-                (s.point(0.0, 1.0 + t), d0.point(1.0 + t)),
-                (s.point(1.0, 1.0 + t), d1.point(1.0 + t)),
-            ];
-            for (k, (a, b)) in pairs.into_iter().enumerate() {
-                assert!(a.distance(b) < 1e-14, "border {k} at {t}: {a} {b}");
-            }
-        }
+        let all = [c0.clone(), c1.clone(), d0.clone(), d1.clone()];
+        check_borders(&NurbsSurface::coons([&c0, &c1], [&d0, &d1]).unwrap(), &all);
+        // The same with uneven weights, which the shapes of the borders then follow.
+        let heavy = |c: &NurbsCurve<DVec3>| {
+            let weights = (0..c.poles().len()).map(|k| 1.0 + 0.4 * (2.0 * k as f64).cos()).collect();
+            NurbsCurve::new(c.knots().clone(), c.poles().to_vec(), Some(weights)).unwrap()
+        };
+        let all = [heavy(&c0), c1.clone(), heavy(&d0), heavy(&d1)];
+        check_borders(&NurbsSurface::coons([&all[0], &all[1]], [&all[2], &all[3]]).unwrap(), &all);
         let lifted = d1.mapped(|p| p + DVec3::Z).unwrap();
         let message = NurbsSurface::coons([&c0, &c1], [&d0, &lifted]).unwrap_err().to_string();
         assert!(message.contains("corner (1, 0)"), "{message}");

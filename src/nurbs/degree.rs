@@ -101,9 +101,14 @@ fn polar_form(knots: &KnotVector, span: usize, arguments: &mut [f64]) -> Vec<(us
     shares.into_iter().enumerate().map(|(k, s)| (span + k - p, s)).filter(|(_, s)| *s != 0.0).collect()
 }
 
-/// A pole of the elevated spline is the mean of the polar form with each of its arguments left out
-/// in turn. Nothing is inserted and removed again, which would cost digits at uneven knots.
-fn elevate_once<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVector> {
+/// The spline times a linear function, which makes its degree higher by one. A pole is the mean of
+/// the polar form with each of its arguments left out in turn, times the function of that one.
+/// Nothing is inserted and removed again, which would cost digits at uneven knots.
+fn times_linear<P: Point>(
+    knots: &KnotVector,
+    net: &mut Net<P>,
+    linear: impl Fn(f64) -> f64,
+) -> Result<KnotVector> {
     let p = knots.degree();
     let raised =
         knots.breaks_and_multiplicities().into_iter().flat_map(|(t, m)| std::iter::repeat_n(t, m + 1));
@@ -114,9 +119,9 @@ fn elevate_once<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVe
         let mut shares = vec![0.0; p + 1];
         for left_out in 0..=p {
             let mut rest: Vec<f64> = arguments.to_vec();
-            rest.remove(left_out);
+            let factor = linear(rest.remove(left_out)) / (p + 1) as f64;
             for (i, share) in polar_form(knots, span, &mut rest) {
-                shares[i + p - span] += share / (p + 1) as f64;
+                shares[i + p - span] += share * factor;
             }
         }
         shares.into_iter().enumerate().map(|(k, s)| (span + k - p, s)).filter(|(_, s)| *s != 0.0).collect()
@@ -139,9 +144,17 @@ fn elevate<P: Point>(knots: &KnotVector, net: &mut Net<P>, by: usize) -> Result<
     let breaks = knots.breaks_and_multiplicities();
     refuse_jumps(p, &breaks)?;
     for _ in 0..by {
-        knots = elevate_once(&knots, net)?;
+        knots = times_linear(&knots, net, |_| 1.0)?;
     }
     Ok(knots)
+}
+
+/// Coordinates and weights times a linear function, which is given at the ends of the domain.
+fn weigh<P: Point>(knots: &KnotVector, net: &mut Net<P>, [start, end]: [f64; 2]) -> Result<KnotVector> {
+    let (a, b) = knots.domain();
+    let knots = window(knots, net, (a, b))?;
+    refuse_jumps(knots.degree(), &knots.breaks_and_multiplicities())?;
+    times_linear(&knots, net, |t| (start * (b - t) + end * (t - a)) / (b - a))
 }
 
 fn reduce<P: Point>(knots: &KnotVector, net: &mut Net<P>, tolerance: f64) -> Result<(KnotVector, f64)> {
@@ -175,6 +188,19 @@ impl<P: Point> NurbsCurve<P> {
     /// [`Error::Spline`] beyond [`MAX_DEGREE`] and for curves that jump.
     pub fn elevated(&self, by: usize) -> Result<Self> {
         self.reshape(|knots, net| elevate(knots, net, by))
+    }
+
+    /// The same rational curve, clamped, with weights of one at both ends, at the same parameters: a
+    /// linear function is multiplied in where the weights of the ends differ.
+    pub(super) fn with_ends_of_weight_one(&self) -> Result<Self> {
+        let curve = self.rational().clamped()?;
+        let weights = curve.weights().unwrap_or_default();
+        let [start, end] = [weights[0], weights[weights.len() - 1]];
+        if (start - end).abs() <= f64::EPSILON * start {
+            let even = weights.iter().map(|w| w / start).collect();
+            return Self::new(curve.knots().clone(), curve.poles().to_vec(), Some(even));
+        }
+        curve.reshape(|knots, net| weigh(knots, net, [1.0 / start, 1.0 / end]))
     }
 
     /// A curve of a degree lower by one, with a bound of its distance (at equal parameters), no
