@@ -55,7 +55,7 @@ pub fn offset_curve(source: &mut Source, pool: &mut Pool) -> i32 {
 pub fn offset_surface(source: &mut Source, pool: &mut Pool) -> i32 {
     let (surface, within) = (pool.surface(source), tolerance(source));
     // Arbitrary surfaces bend sharply: larger distances would all be refused.
-    let distance = if source.once_in(2) { source.number() } else { 0.1 * source.unit() };
+    let distance = if source.once_in(4) { source.number() } else { 1e-3 * source.unit() };
     let (mut deviation, mut out) = (f64::NAN, null_mut());
     let place = if source.once_in(4) { null_mut() } else { &raw mut deviation };
     // SAFETY: the handle is alive or NULL.

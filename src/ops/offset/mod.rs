@@ -96,7 +96,8 @@ impl Offset {
     ///
     /// # Errors
     /// [`Error::Argument`] for a distance or tolerance that cannot be used, [`Error::Spline`] for a
-    /// curve that jumps, [`Error::Numerics`] for one that stands still.
+    /// curve that jumps or has knots as good as one, [`Error::Numerics`] for one that stands still or is
+    /// beyond the bounds of the work: 20,000 stretches, 4 million comparisons, 20,000 pieces.
     pub fn raw(&self, curve: &NurbsCurve<DVec2>) -> Result<Vec<OffsetCurve>> {
         let track = self.track(curve)?;
         let elements: Vec<Element> = raw::elements(&track, self.corner).into_iter().map(|e| e.0).collect();
