@@ -14,10 +14,10 @@ use super::taylor::{Powers, Taylor};
 use super::tree::Bounds;
 use crate::nurbs::{Direction, SurfaceDerivatives};
 use crate::ops::closest::Local;
-use glam::{DMat3, DVec2, DVec3, DVec4, Vec4Swizzles};
+use glam::{DMat3, DVec2, DVec3, Vec4Swizzles};
 
 /// Chords of prepared pieces are at least as long as this, in the metric of their middles.
-const FLAT: f64 = 0.7;
+const FLAT: f64 = 0.6;
 /// Curvature may use up this fraction of the certainty that a foot is the only one.
 const CERTAIN: f64 = 1.0 - 1e-9;
 
@@ -159,26 +159,13 @@ impl Spread {
     fn new(taylor: &Taylor, middle: &SurfaceDerivatives, size: f64, least_weight: f64) -> Self {
         let SurfaceDerivatives { u, v, uu, uv, vv, .. } = *middle;
         let (a, b) = (u.length().max(f64::MIN_POSITIVE), v.length().max(f64::MIN_POSITIVE));
-        // Coefficients of derivatives of `k`-th order in u and `l`-th in v.
-        let of = |i: usize, j: usize, k: usize, l: usize| {
-            let factor = |n: usize, k: usize| (n + 1..=n + k).product::<usize>() as f64;
-            taylor.get(i + k, j + l) * (factor(i, k) * factor(j, l))
-        };
-        let weight = |k: usize, l: usize| taylor.each().map(|(i, j)| of(i, j, k, l).w.abs()).sum::<f64>();
-        // The numerator of a derivative less its value in the middle; see eq. 4.20.
-        let sum = |k: usize, l: usize, value: DVec3, [cu, cv]: [DVec3; 2]| {
-            let term = |(i, j)| {
-                let d: DVec4 = of(i, j, k, l);
-                (d.xyz() - value * of(i, j, 0, 0).w - cu * of(i, j, 1, 0).w - cv * of(i, j, 0, 1).w).length()
-            };
-            taylor.each().map(term).sum::<f64>()
-        };
-        let (wu, wv, none) = (weight(1, 0), weight(0, 1), [DVec3::ZERO; 2]);
-        let du = (sum(1, 0, u, none) + size * wu) / least_weight;
-        let dv = (sum(0, 1, v, none) + size * wv) / least_weight;
-        let duu = sum(2, 0, uu, [2.0 * u, DVec3::ZERO]) + 2.0 * du * wu + size * weight(2, 0);
-        let duv = sum(1, 1, uv, [v, u]) + du * wv + dv * wu + size * weight(1, 1);
-        let dvv = sum(0, 2, vv, [DVec3::ZERO, 2.0 * v]) + 2.0 * dv * wv + size * weight(0, 2);
+        let sums = Sums::new(taylor, middle);
+        let [wu, wv, wuu, wuv, wvv] = sums.weights;
+        let [du, dv, duu, duv, dvv] = sums.numerators;
+        let (du, dv) = ((du + size * wu) / least_weight, (dv + size * wv) / least_weight);
+        let duu = duu + 2.0 * du * wu + size * wuu;
+        let duv = duv + du * wv + dv * wu + size * wuv;
+        let dvv = dvv + 2.0 * dv * wv + size * wvv;
         // Weights that change along one direction turn tangents as far as the piece extends in the
         // other.
         let turn = [
@@ -205,5 +192,41 @@ impl Spread {
             second: [uu, uv, vv],
             turn,
         }
+    }
+}
+
+/// Bounds over a piece, from its coefficients, by derivative: in u, in v, in u twice, mixed, in v
+/// twice.
+#[derive(Default)]
+struct Sums {
+    /// Of the numerators less their values in the middle; see eq. 4.20.
+    numerators: [f64; 5],
+    /// Of the weight.
+    weights: [f64; 5],
+}
+
+impl Sums {
+    fn new(taylor: &Taylor, middle: &SurfaceDerivatives) -> Self {
+        let SurfaceDerivatives { u, v, uu, uv, vv, .. } = *middle;
+        let mut out = Self::default();
+        for (i, j) in taylor.each() {
+            let ([i1, i2], [j1, j2]) = ([i + 1, i + 2], [j + 1, j + 2]);
+            let of = |i: usize, j: usize, factor: usize| taylor.get(i, j) * factor as f64;
+            let w = taylor.get(i, j).w;
+            let (in_u, in_v) = (of(i1, j, i1), of(i, j1, j1));
+            let derivatives = [in_u, in_v, of(i2, j, i1 * i2), of(i1, j1, i1 * j1), of(i, j2, j1 * j2)];
+            let less = [
+                u * w,
+                v * w,
+                uu * w + u * (2.0 * in_u.w),
+                uv * w + v * in_u.w + u * in_v.w,
+                vv * w + v * (2.0 * in_v.w),
+            ];
+            for k in 0..5 {
+                out.numerators[k] += (derivatives[k].xyz() - less[k]).length();
+                out.weights[k] += derivatives[k].w.abs();
+            }
+        }
+        out
     }
 }

@@ -18,7 +18,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Halvings of a piece while preparing: more are left to the query that needs them.
-const DEPTH: usize = 6;
+const DEPTH: usize = 8;
 /// Points that one thread takes at a time.
 const CHUNK: usize = 4096;
 
