@@ -4,7 +4,7 @@
 use super::basis::{KnotVector, MAX_DEGREE};
 use super::curve::{NurbsCurve, Point};
 use super::derivatives::binomial;
-use super::refine::{Direction, Net, insert_all, window};
+use super::refine::{Direction, Net, insert_all, polar_form, window};
 use super::removal::remove;
 use super::surface::NurbsSurface;
 use crate::error::{Error, Result};
@@ -78,27 +78,6 @@ fn lowered(p: usize) -> Shares {
         left.push(a.into_iter().chain(b).map(|(k, s)| (k, 0.5 * s)).collect());
     }
     left.into_iter().chain(right.into_iter().rev()).collect()
-}
-
-/// The polar form of the segment over a span at `p` arguments, as shares of the poles. Arguments
-/// far from the span come last: there the knots taken are the widest.
-fn polar_form(knots: &KnotVector, span: usize, arguments: &mut [f64]) -> Vec<(usize, f64)> {
-    let (p, u) = (knots.degree(), knots.flat());
-    let middle = 0.5 * (u[span] + u[span + 1]);
-    arguments.sort_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs()));
-    // shares[k] is that of pole span - p + k.
-    let mut shares = vec![0.0; p + 1];
-    shares[p] = 1.0;
-    for (r, &a) in (1..=p).zip(arguments.iter()) {
-        for k in p - r..=p {
-            let i = span + k - p;
-            let own = if k > p - r { shares[k] * ((a - u[i]) / (u[i + r] - u[i])) } else { 0.0 };
-            let next =
-                if k < p { shares[k + 1] * ((u[i + r + 1] - a) / (u[i + r + 1] - u[i + 1])) } else { 0.0 };
-            shares[k] = own + next;
-        }
-    }
-    shares.into_iter().enumerate().map(|(k, s)| (span + k - p, s)).filter(|(_, s)| *s != 0.0).collect()
 }
 
 /// The spline times a linear function, which makes its degree higher by one. A pole is the mean of

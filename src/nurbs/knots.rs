@@ -63,7 +63,10 @@ impl KnotVector {
         let mirrored = |&k: &f64| match k {
             k if k == a => b,
             k if k == b => a,
-            k => a + (b - k),
+            // Rounding must not move them past the ends, nor out of the numbers.
+            k if k < a => (a + (b - k)).clamp(b, f64::MAX),
+            k if k > b => (a + (b - k)).clamp(-f64::MAX, a),
+            k => (a + (b - k)).clamp(a, b),
         };
         let flat = self.flat().iter().rev().map(mirrored).collect();
         Self::new(self.degree(), flat).expect("mirrored knots ascend as well")

@@ -1,7 +1,9 @@
-//! Exact reshaping by knot insertion (Boehm 1980; *The NURBS Book*, section 5.2).
+//! Exact reshaping by knot insertion: of one knot (Boehm 1980; *The NURBS Book*, section 5.2) and of
+//! many at once by polar forms.
 
 use super::basis::KnotVector;
 use super::curve::{NurbsCurve, Point};
+use super::derivatives::Side;
 use super::surface::NurbsSurface;
 use crate::error::{Error, Result};
 use glam::DVec3;
@@ -144,17 +146,56 @@ pub(super) fn window<P: Point>(
     KnotVector::new(p, clamped)
 }
 
-/// Inserts all knots, ascending, one after the other.
+/// The polar form of the segment over a span at `p` arguments, as shares of the poles
+/// (Ramshaw, *Blossoms are polar forms*, 1989). Arguments
+/// far from the span come last: there the knots taken are the widest.
+pub(super) fn polar_form(knots: &KnotVector, span: usize, arguments: &mut [f64]) -> Vec<(usize, f64)> {
+    let (p, u) = (knots.degree(), knots.flat());
+    let middle = 0.5 * (u[span] + u[span + 1]);
+    arguments.sort_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs()));
+    // shares[k] is that of pole span - p + k.
+    let mut shares = vec![0.0; p + 1];
+    shares[p] = 1.0;
+    for (r, &a) in (1..=p).zip(arguments.iter()) {
+        for k in p - r..=p {
+            let i = span + k - p;
+            let own = if k > p - r { shares[k] * ((a - u[i]) / (u[i + r] - u[i])) } else { 0.0 };
+            let next =
+                if k < p { shares[k + 1] * ((u[i + r + 1] - a) / (u[i + r + 1] - u[i + 1])) } else { 0.0 };
+            shares[k] = own + next;
+        }
+    }
+    shares.into_iter().enumerate().map(|(k, s)| (span + k - p, s)).filter(|(_, s)| *s != 0.0).collect()
+}
+
+/// Inserts all knots, ascending, at once: a pole is the polar form at the knots within its support.
 pub(super) fn insert_all<P: Point>(knots: &KnotVector, net: &mut Net<P>, new: &[f64]) -> Result<KnotVector> {
     if let Some(w) = new.windows(2).find(|w| w[1].is_nan() || w[1] < w[0]) {
         return Err(Error::Spline { why: format!("knots to insert must ascend: {} follows {}", w[1], w[0]) });
     }
-    let mut knots = knots.clone();
     for same in new.chunk_by(|a, b| a == b) {
-        let multiplicity = check_insertion(&knots, same[0], same.len())?;
-        knots = raise(knots, net, same[0], multiplicity)?;
+        check_insertion(knots, same[0], same.len())?;
     }
-    Ok(knots)
+    let (p, old) = (knots.degree(), knots.flat());
+    let mut flat = [old, new].concat();
+    flat.sort_by(f64::total_cmp);
+    // How many of the first knots are old ones; of equal ones these come first.
+    let mut known = vec![0; flat.len() + 1];
+    for (i, &t) in flat.iter().enumerate() {
+        known[i + 1] = known[i] + usize::from(old.get(known[i]) == Some(&t));
+    }
+    let row = |j: usize| {
+        let (inner, end) = (&flat[j + 1..=j + p], flat[j + p + 1]);
+        if known[j + p + 1] - known[j + 1] == p {
+            return vec![(known[j + 1] - 1, 1.0)];
+        }
+        let middle = inner.iter().sum::<f64>() / p as f64;
+        let side = if middle < end { Side::Above } else { Side::Below };
+        polar_form(knots, knots.span_from(middle, side), &mut inner.to_vec())
+    };
+    let rows: Vec<_> = (0..flat.len() - p - 1).map(row).collect();
+    net.combine(&rows);
+    KnotVector::new(p, flat)
 }
 
 /// Whether both ends are knots exactly once more than the degree: with further ones the poles at the

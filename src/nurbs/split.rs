@@ -17,12 +17,6 @@ fn check(knots: &KnotVector, from: f64, to: f64) -> Result<()> {
     Err(Error::Spline { why: format!("[{from}, {to}] is no part of the domain [{a}, {b}]") })
 }
 
-fn reverse<P: Point>(knots: &KnotVector, net: &mut Net<P>) -> Result<KnotVector> {
-    let shares: Vec<_> = (0..knots.len()).rev().map(|i| vec![(i, 1.0)]).collect();
-    net.combine(&shares);
-    Ok(knots.reversed())
-}
-
 impl<P: Point> NurbsCurve<P> {
     /// The part of the curve between two parameters, which keeps its parametrisation.
     ///
@@ -44,7 +38,9 @@ impl<P: Point> NurbsCurve<P> {
 
     /// The curve run backwards, over the same domain.
     pub fn reversed(&self) -> Self {
-        self.reshape(reverse).expect("poles in another order are as good")
+        let weights = self.weights().map(|w| w.iter().rev().copied().collect());
+        Self::new(self.knots().reversed(), self.poles().iter().rev().copied().collect(), weights)
+            .expect("poles in another order are as good")
     }
 
     /// Its Bézier segments, each over the span it came from.
@@ -104,7 +100,21 @@ impl NurbsSurface {
 
     /// The surface run backwards along `direction`, over the same domain.
     pub fn reversed(&self, direction: Direction) -> Self {
-        self.reshape(direction, reverse).expect("poles in another order are as good")
+        let (n, m) = (self.knots_u().len(), self.knots_v().len());
+        let (mut knots_u, mut knots_v) = (self.knots_u().clone(), self.knots_v().clone());
+        let order: Vec<usize> = match direction {
+            Direction::U => {
+                knots_u = knots_u.reversed();
+                (0..n * m).map(|k| (n - 1 - k / m) * m + k % m).collect()
+            }
+            Direction::V => {
+                knots_v = knots_v.reversed();
+                (0..n * m).map(|k| k / m * m + m - 1 - k % m).collect()
+            }
+        };
+        let poles = order.iter().map(|&k| self.poles()[k]).collect();
+        let weights = self.weights().map(|w| order.iter().map(|&k| w[k]).collect());
+        Self::new(knots_u, knots_v, poles, weights).expect("poles in another order are as good")
     }
 
     /// Its Bézier patches, those along `v` next to each other.
@@ -200,6 +210,25 @@ mod tests {
         }
         for (a, b) in [(0.5, 0.5), (-0.1, 0.5), (0.5, 1.1), (f64::NAN, 1.0)] {
             assert!(c.part(a, b).is_err(), "[{a}, {b}]");
+        }
+    }
+
+    #[test]
+    fn extreme_numbers_run_backwards_as_well() {
+        let next = 0.1f64.next_up();
+        let flats = [
+            vec![0.1, 0.1, next, 0.2, 0.3, 0.3],
+            vec![-f64::MAX, -1.0, 1e300, f64::MAX],
+            vec![-f64::MAX, -f64::MAX, f64::MAX, f64::MAX],
+        ];
+        for flat in flats {
+            let n = flat.len() - 2;
+            let poles = (0..n).map(|i| DVec2::new(1e300, 1e-300 * i as f64)).collect::<Vec<_>>();
+            let weights = (0..n).map(|i| 1e200 * (i + 1) as f64).collect::<Vec<_>>();
+            let c = NurbsCurve::new(KnotVector::new(1, flat).unwrap(), poles, Some(weights)).unwrap();
+            let back = c.reversed().reversed();
+            assert_eq!((back.poles(), back.weights()), (c.poles(), c.weights()));
+            assert_eq!(c.reversed().knots().domain(), c.knots().domain());
         }
     }
 
