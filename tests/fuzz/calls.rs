@@ -456,3 +456,6 @@ pub const CALLS: [Call; 31] = [
     ("surface_section, surface_intersect, section_*", cut_surfaces),
     ("surface_project", project_curves),
 ];
+
+/// Calls that may take a second each: half as often.
+pub const SLOW: [&str; 2] = ["surface_section, surface_intersect, section_*", "surface_project"];
