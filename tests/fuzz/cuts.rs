@@ -24,7 +24,7 @@ pub fn take_one(source: &mut Source, pool: &mut Pool, list: *mut Curves) {
 }
 
 /// A tolerance that is not small: with others each call takes seconds.
-fn coarse(source: &mut Source) -> f64 {
+pub fn coarse(source: &mut Source) -> f64 {
     let within = tolerance(source);
     if within > 0.0 { within.max(1e-4) } else { within }
 }
