@@ -1796,8 +1796,8 @@ int32_t bladesmith_curve_fillet(const bladesmith_curve *curve,
  * Units: mm.
  * Owner: `*out` is the caller's, for bladesmith_section_free(); written only on success.
  * Errors: BLADESMITH_STATUS_ARGUMENT, also for a tolerance below what rounding allows;
- * BLADESMITH_STATUS_SPLINE for surfaces that jump; BLADESMITH_STATUS_NUMERICS for a contact too close
- * to be followed.
+ * BLADESMITH_STATUS_SPLINE for surfaces that jump; BLADESMITH_STATUS_NUMERICS where they meet in too
+ * many places to follow.
  */
 int32_t bladesmith_surface_section(const bladesmith_surface *surface,
                                    const double *origin,

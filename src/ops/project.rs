@@ -14,6 +14,10 @@ const PLACES: usize = 32;
 const HALVINGS: u32 = 50;
 /// Spans of a projected curve at most.
 const SPANS: usize = 2000;
+/// Degree of a projected curve.
+const DEGREE: usize = 5;
+/// Breaks nearer to each other than this fraction of a part are one.
+const SAME: f64 = 1e-10;
 /// Fraction of the tolerance by which a foot may miss the perpendicular.
 const UPRIGHT: f64 = 0.1;
 /// A foot that moves by more than this many times the way of its point has leapt.
@@ -175,15 +179,41 @@ impl Feet {
         closest::foot(self.inverter.surface(), self.curve.point(t), guess).uv
     }
 
+    /// Where the feet cross knots of the surface, with the multiplicity of a break there: a foot is
+    /// less smooth by one than the surface.
+    fn crossings(&self, part: &Part) -> Vec<(f64, usize)> {
+        let surface = self.inverter.surface();
+        let mut found = Vec::new();
+        for (direction, knots) in [surface.knots_u(), surface.knots_v()].into_iter().enumerate() {
+            let breaks = knots.breaks_and_multiplicities();
+            for &(knot, m) in &breaks[1..breaks.len() - 1] {
+                let multiplicity = (DEGREE + 1 + m).saturating_sub(knots.degree()).min(DEGREE);
+                let side = |uv: DVec2| uv[direction] - knot;
+                for w in part.windows(2).filter(|w| side(w[0].1) * side(w[1].1) < 0.0 && multiplicity > 0) {
+                    let (mut a, mut b) = (w[0].0, w[1].0);
+                    for _ in 0..HALVINGS {
+                        let middle = 0.5 * (a + b);
+                        let same = side(self.near(part, middle)) * side(w[0].1) > 0.0;
+                        if same { a = middle } else { b = middle }
+                    }
+                    found.push((0.5 * (a + b), multiplicity));
+                }
+            }
+        }
+        found
+    }
+
     fn fitted(&self, part: &Part) -> Result<Projection> {
         let surface = self.inverter.surface();
         let (first, last) = (part[0].0, part[part.len() - 1].0);
         let knots = self.curve.knots();
         let inner = knots.breaks_and_multiplicities().into_iter().filter(|&(t, _)| t > first && t < last);
-        let multiplicity = |m: usize| (5 + m).saturating_sub(knots.degree()).clamp(1, 5);
+        let multiplicity = |m: usize| (DEGREE + m).saturating_sub(knots.degree()).clamp(1, DEGREE);
         let mut at = vec![(first, 1)];
         at.extend(inner.map(|(t, m)| (t, multiplicity(m))));
+        at.extend(self.crossings(part));
         at.push((last, 1));
+        let at = merged(at);
         // Parameters in mm, for one tolerance.
         let speeds = part.iter().map(|p| surface.first_derivatives(p.1.x, p.1.y));
         let scale = speeds
@@ -191,7 +221,7 @@ impl Feet {
         let mut asked = 0.25 * self.tolerance;
         let mut deviation = f64::INFINITY;
         for _ in 0..4 {
-            let breaks = || Breaks { degree: 5, at: at.clone() };
+            let breaks = || Breaks { degree: DEGREE, at: at.clone() };
             let (scaled, _) = approximate::curve(|t| self.near(part, t) * scale, breaks(), asked, SPANS)?;
             let parameters = scaled.mapped(|p| p / scale)?;
             let point = |t: f64| {
@@ -222,6 +252,21 @@ impl Feet {
         };
         places.map(error).fold(0.0, f64::max)
     }
+}
+
+/// Breaks in ascending order, neighbours that are one with the larger multiplicity.
+fn merged(mut at: Vec<(f64, usize)>) -> Vec<(f64, usize)> {
+    at.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (first, last) = (at[0].0, at[at.len() - 1].0);
+    let same = SAME * (last - first);
+    at.dedup_by(|next, kept| {
+        let one = next.0 - kept.0 <= same;
+        if one {
+            *kept = (if next.0 == last { last } else { kept.0 }, kept.1.max(next.1));
+        }
+        one
+    });
+    at
 }
 
 #[cfg(test)]
@@ -283,6 +328,28 @@ mod tests {
         let all = along(&circle, &flat, DVec3::Z, 1e-8).unwrap();
         let length: f64 = all.iter().map(|part| part.curve.length(1e-10).unwrap()).sum();
         assert!((length - TAU / 3.0).abs() < 1e-6, "{length}, not a third of the circle");
+    }
+
+    #[test]
+    fn a_surface_with_creases_of_its_curvature_takes_few_spans() {
+        let knots = KnotVector::with_multiplicities(3, &[0.0, 0.4, 1.0], &[4, 2, 4]).unwrap();
+        let heights = [0.0, 0.06, 0.02, 0.01, 0.08, 0.0];
+        let line = KnotVector::clamped(1, &[0.0, 1.0]).unwrap();
+        let pole = |i: usize| DVec3::new(0.2 * (i / 2) as f64, (i % 2) as f64, heights[i / 2]);
+        let poles: Vec<DVec3> = (0..12).map(pole).collect();
+        let surface = NurbsSurface::new(knots, line, poles, None).unwrap();
+        let above = self::line(DVec3::new(0.1, 0.1, 0.2), DVec3::new(0.9, 0.8, 0.25));
+        let found = to_nearest(&above, &surface, 1e-9).unwrap();
+        assert_eq!(found.len(), 1);
+        assert!(found[0].deviation_mm <= 1e-9);
+        let count = found[0].curve.poles().len();
+        assert!(count < 250, "{count} poles");
+        for k in 0..=300 {
+            let t = k as f64 / 300.0;
+            let nearest = SurfaceInverter::new(&surface).unwrap().nearest(above.point(t));
+            let off = found[0].curve.point(t).distance(nearest.point);
+            assert!(off < 1e-7, "{off} off at {t}");
+        }
     }
 
     #[test]

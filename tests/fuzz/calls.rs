@@ -457,3 +457,6 @@ pub const CALLS: [Call; 32] = [
     ("surface_project", project_curves),
     ("surface_offset", offset_surface),
 ];
+
+/// Calls that may take a second each: half as often.
+pub const SLOW: [&str; 2] = ["surface_section, surface_intersect, section_*", "surface_project"];

@@ -23,9 +23,15 @@ pub fn take_one(source: &mut Source, pool: &mut Pool, list: *mut Curves) {
     pool.keep_curve(source, out);
 }
 
+/// A tolerance that is not small: with others each call takes seconds.
+pub fn coarse(source: &mut Source) -> f64 {
+    let within = tolerance(source);
+    if within > 0.0 { within.max(1e-4) } else { within }
+}
+
 pub fn round_corners(source: &mut Source, pool: &mut Pool) -> i32 {
     let (curve, other, radius) = (pool.curve(source), pool.curve(source), source.number());
-    let (near, within) = (source.numbers(2), tolerance(source));
+    let (near, within) = (source.numbers(2), coarse(source));
     let (mut list, mut table) = (null_mut(), null_mut());
     let near = if source.once_in(2) { null() } else { near.as_ptr() };
     // SAFETY: the handles are alive or NULL, the array is as long as the header asks for.
@@ -42,7 +48,7 @@ pub fn round_corners(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 pub fn cut_surfaces(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (surface, other, within) = (pool.surface(source), pool.surface(source), tolerance(source));
+    let (surface, other, within) = (pool.surface(source), pool.surface(source), coarse(source));
     let plane = source.numbers(6);
     let (mut section, mut axes) = (null_mut(), room(9));
     let mut lists = [null_mut(); 3];
@@ -70,7 +76,7 @@ pub fn cut_surfaces(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 pub fn project_curves(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (surface, curve, within) = (pool.surface(source), pool.curve(source), tolerance(source));
+    let (surface, curve, within) = (pool.surface(source), pool.curve(source), coarse(source));
     let direction = source.numbers(3);
     let direction = if source.once_in(2) { null() } else { direction.as_ptr() };
     let (mut curves, mut parameters, mut table) = (null_mut(), null_mut(), null_mut());

@@ -1,7 +1,7 @@
 //! Calls that find where shapes meet, and offsets.
 
 use super::calls::{Pool, read_table, room, tolerance};
-use super::cuts::take_one;
+use super::cuts::{coarse, take_one};
 use super::source::Source;
 use bladesmith::ffi::spline::intersect::*;
 use bladesmith::ffi::spline::offset::*;
@@ -41,7 +41,7 @@ pub fn cast_rays(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 pub fn offset_curve(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (curve, distance, within) = (pool.curve(source), source.number(), tolerance(source));
+    let (curve, distance, within) = (pool.curve(source), source.number(), coarse(source));
     let limit = if source.once_in(2) { 0.0 } else { source.number() };
     let (mut list, mut pieces) = (null_mut(), null_mut());
     let call = if source.once_in(4) { bladesmith_curve_offset_raw } else { bladesmith_curve_offset };

@@ -23,8 +23,8 @@ pub struct Section {
 /// Units: mm.
 /// Owner: `*out` is the caller's, for bladesmith_section_free(); written only on success.
 /// Errors: BLADESMITH_STATUS_ARGUMENT, also for a tolerance below what rounding allows;
-/// BLADESMITH_STATUS_SPLINE for surfaces that jump; BLADESMITH_STATUS_NUMERICS for a contact too close
-/// to be followed.
+/// BLADESMITH_STATUS_SPLINE for surfaces that jump; BLADESMITH_STATUS_NUMERICS where they meet in too
+/// many places to follow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_surface_section(
     surface: *const Surface,

@@ -164,6 +164,7 @@ pub fn seeds(pair: &Pair, a: &NurbsSurface, b: &NurbsSurface) -> Result<Seeds> {
             if p.is_apart(q, pair.tolerance) {
                 continue;
             }
+            pair.spend()?;
             let Verdict::Halve(tried) = examine(pair, [p, q], &mut seeds) else { continue };
             let tries = tries + usize::from(tried);
             if tries > PATIENCE || p.radius.max(q.radius) < SMALLEST * pair.size {

@@ -21,6 +21,7 @@ use glam::{DVec2, DVec3};
 use pair::{Kind, Pair};
 use seeds::Seeds;
 use sheet::Sheet;
+use std::cell::Cell;
 use trace::{End, Path};
 
 /// One branch of an intersection.
@@ -76,7 +77,7 @@ pub struct Section {
 ///
 /// # Errors
 /// [`Error::Argument`] for a plane without direction or a tolerance that is not positive or below
-/// what rounding allows.
+/// what rounding allows; [`Error::Numerics`] where they meet in too many places to follow.
 pub fn with_plane(surface: &NurbsSurface, origin: DVec3, normal: DVec3, tolerance: f64) -> Result<Section> {
     let Some(normal) = normal.try_normalize().filter(|_| origin.is_finite()) else {
         let why = format!("a point and a direction were expected, not {origin} and {normal}");
@@ -128,7 +129,7 @@ fn pair(sheets: [Sheet; 2], low: DVec3, high: DVec3, tolerance: f64) -> Result<P
         );
         return Err(Error::Argument { name: "tolerance", why });
     }
-    Ok(Pair { sheets, size: (high - low).length(), reach, tolerance })
+    Ok(Pair { sheets, size: (high - low).length(), reach, tolerance, work: Cell::new(0) })
 }
 
 fn section(pair: &Pair, mut seeds: Seeds) -> Result<Section> {

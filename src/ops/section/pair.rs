@@ -1,13 +1,17 @@
 //! Two sheets and the points that they share, by Newton's method in all four parameters.
 
 use super::sheet::{Cell, Sheet};
+use crate::error::{Error, Result};
 use crate::nurbs::SurfaceDerivatives;
 use glam::{DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
+use std::cell::Cell as Count;
 
 /// Newton steps at most.
 const STEPS: usize = 16;
 /// Sine of the angle below which two tangent planes are one.
 const PARALLEL: f64 = 1e-9;
+/// Points and patches looked at for one intersection, at most: a second's work.
+const MOST: usize = 1_000_000;
 
 /// Two sheets of a common size.
 #[derive(Debug)]
@@ -19,6 +23,8 @@ pub struct Pair {
     pub reach: f64,
     /// In mm.
     pub tolerance: f64,
+    /// What has been looked at: pairs of points and of patches.
+    pub work: Count<usize>,
 }
 
 /// How two sheets meet along a curve.
@@ -97,7 +103,27 @@ struct System {
 }
 
 impl Pair {
+    /// Counts one more thing looked at.
+    ///
+    /// # Errors
+    /// [`Error::Numerics`] beyond the most.
+    pub fn spend(&self) -> Result<()> {
+        self.work.set(self.work.get() + 1);
+        if self.is_spent() {
+            let why =
+                "the surfaces meet in too many places to follow: give a larger tolerance, or parts of them";
+            return Err(Error::Numerics { why: why.into() });
+        }
+        Ok(())
+    }
+
+    /// Whether as much has been looked at as may be.
+    pub fn is_spent(&self) -> bool {
+        self.work.get() > MOST
+    }
+
     pub fn jets(&self, cells: &Cells, at: At) -> [SurfaceDerivatives; 2] {
+        self.work.set(self.work.get() + 1);
         [0, 1].map(|k| self.sheets[k].jet(&cells[k], at[k]))
     }
 

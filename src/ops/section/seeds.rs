@@ -58,9 +58,11 @@ impl Seeds {
         for (kind, places) in [(Kind::Touching, touching), (Kind::Crossing, crossing)] {
             let tracer = Tracer { pair, kind, targets: &targets };
             for place in places {
+                pair.spend()?;
                 self.follow(&tracer, place, &mut paths);
             }
         }
+        pair.spend()?;
         Ok(paths)
     }
 

@@ -97,7 +97,7 @@ impl Tracer<'_> {
         let start = Target::new(at, x);
         let longest = 0.1 * self.pair.size;
         let mut h = (0.2 / from.bend.length()).min(longest);
-        while segments.len() < LONGEST {
+        while segments.len() < LONGEST && !self.pair.is_spent() {
             let closing = (!segments.is_empty()).then_some(&start);
             match self.step(&from, &cells, h, closing) {
                 Step::End(piece, end) => {

@@ -162,14 +162,15 @@ pub fn seeds(pair: &Pair, surface: &NurbsSurface, origin: DVec3, normal: DVec3) 
             continue;
         }
         let nothing = 8.0 * f64::EPSILON * pair.reach * heaviest;
-        search(pair, Net { low, high, columns: piece.columns, values, depth: 0 }, nothing, &mut seeds);
+        search(pair, Net { low, high, columns: piece.columns, values, depth: 0 }, nothing, &mut seeds)?;
     }
     Ok(seeds)
 }
 
-fn search(pair: &Pair, net: Net, nothing: f64, seeds: &mut Seeds) {
+fn search(pair: &Pair, net: Net, nothing: f64, seeds: &mut Seeds) -> Result<()> {
     let mut rest = vec![net];
     while let Some(net) = rest.pop() {
+        pair.spend()?;
         match net.verdict(nothing) {
             Verdict::Nothing => {}
             Verdict::Branch(places) => {
@@ -187,6 +188,7 @@ fn search(pair: &Pair, net: Net, nothing: f64, seeds: &mut Seeds) {
             Verdict::Undecided => seeds.uncertain.push(0.5 * (net.low + net.high)),
         }
     }
+    Ok(())
 }
 
 fn pierced(pair: &Pair, uv: DVec2) -> At {
