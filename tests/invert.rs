@@ -196,6 +196,26 @@ fn long_batches_find_what_single_questions_find() {
     }
 }
 
+/// From one point to the next it is many pieces, and not always as many.
+#[test]
+fn sparse_batches_find_what_single_questions_find() {
+    let mut random = Random(8);
+    let breaks: Vec<f64> = (0..=400).map(f64::from).collect();
+    let (ku, kv) = (KnotVector::clamped(2, &breaks).unwrap(), KnotVector::clamped(1, &[0.0, 1.0]).unwrap());
+    let pole = |k: usize| DVec3::new((k / 2) as f64, (k % 2) as f64, 0.0) + random.vector(0.4);
+    let poles = (0..ku.len() * 2).map(pole).collect();
+    let surface = NurbsSurface::new(ku, kv, poles, None).unwrap();
+    let inverter = SurfaceInverter::new(&surface).unwrap();
+    for batch in 0..400 {
+        let mut place = || surface.point(random.within(0.0, 400.0), random.next()) + random.vector(0.02);
+        let points: Vec<DVec3> = (0..50).map(|_| place()).collect();
+        for (&p, found) in points.iter().zip(inverter.nearest_many(&points)) {
+            let one = inverter.nearest(p).distance;
+            assert!((found.distance - one).abs() < 1e-12, "{batch}: {found:?} instead of {one} from {p}");
+        }
+    }
+}
+
 /// A full circle of nine poles.
 fn circle() -> NurbsCurve<DVec2> {
     let s = std::f64::consts::FRAC_1_SQRT_2;

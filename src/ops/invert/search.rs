@@ -110,23 +110,9 @@ impl<'a, S: Shape> Search<'a, S> {
     ///
     /// A point of a piece at the distance `a` from `p` is at least as far from any other piece as the
     /// boxes of both are apart, and `p` by up to `a` less.
-    pub fn run_near(mut self, mut guess: usize, near: &mut Vec<(f64, Neighbour)>) -> Self {
+    pub fn run_near(mut self, guess: usize, near: &mut Vec<(f64, Neighbour)>) -> Self {
         let neighbours = self.index.neighbours();
-        for _ in 0..WALK {
-            let (p, hulls) = (self.p, &self.index.hulls);
-            near.clear();
-            near.extend(neighbours.of(guess).iter().map(|n| (S::bound(&hulls[n.leaf], p), *n)));
-            let mut nearest = (S::bound(&hulls[guess], p), guess);
-            for (bound, n) in &*near {
-                if *bound < nearest.0 {
-                    nearest = (*bound, n.leaf);
-                }
-            }
-            if nearest.1 == guess {
-                break;
-            }
-            guess = nearest.1;
-        }
+        let Some(guess) = self.walk(neighbours, guess, near) else { return self.run() };
         let a = self.visit_leaf(guess, 0.0);
         let reach = neighbours.reach(guess);
         if reach > a {
@@ -143,6 +129,31 @@ impl<'a, S: Shape> Search<'a, S> {
         }
         self.finish();
         self
+    }
+
+    /// From piece to nearer piece, if it is not too far; `near` are those around the last.
+    fn walk(
+        &self,
+        neighbours: &Neighbours,
+        mut guess: usize,
+        near: &mut Vec<(f64, Neighbour)>,
+    ) -> Option<usize> {
+        let bound = |leaf: usize| S::bound(&self.index.hulls[leaf], self.p);
+        let mut least = bound(guess);
+        for _ in 0..WALK {
+            near.clear();
+            near.extend(neighbours.of(guess).iter().map(|n| (bound(n.leaf), *n)));
+            let from = guess;
+            for &(bound, n) in near.iter() {
+                if bound < least {
+                    (least, guess) = (bound, n.leaf);
+                }
+            }
+            if guess == from {
+                return Some(guess);
+            }
+        }
+        None
     }
 
     /// Visits the pieces of the tree, the nearest first.
