@@ -39,7 +39,6 @@ fn check(s: &NurbsSurface, top: usize, sides: [Side; 2], what: &str) -> f64 {
             let at = [DVec2::new(u, v)];
             ways.push(("all", s.derivatives_to(u, v, top)));
             ways.push(("two", rows(s.derivatives(u, v))));
-            ways.push(("a batch", rows(evaluator.derivatives(&at)[0])));
             ways.push(("a point", vec![vec![s.point(u, v)]]));
             ways.push(("a batch of points", vec![evaluator.points(&at)]));
         }
