@@ -1020,6 +1020,26 @@ int32_t bladesmith_curve_interpolate(uint32_t dimension,
                                      bladesmith_curve **out);
 
 /**
+ * The closed curve, smooth at its seam as everywhere, that passes points at parameters; its knots are
+ * periodic. Odd degrees have them at the parameters, even ones halfway between.
+ *
+ * dimension: 2 or 3.
+ * degree: 1 to 25, less than count.
+ * parameters: [count + 1] ascending, the last where the first point is passed again.
+ * points: [count][dimension], the first not repeated.
+ * Units: mm.
+ * Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for parameters so uneven that they do
+ * not determine a curve.
+ */
+int32_t bladesmith_curve_interpolate_closed(uint32_t dimension,
+                                            uint32_t degree,
+                                            const double *parameters,
+                                            const double *points,
+                                            size_t count,
+                                            bladesmith_curve **out);
+
+/**
  * The curve over given knots with the least sum of weighted squared distances to points at their
  * parameters, with given derivatives at its ends.
  *
@@ -1439,13 +1459,13 @@ int32_t bladesmith_surface_revolved(const bladesmith_curve *curve,
                                     bladesmith_surface **out);
 
 /**
- * The bilinearly blended Coons patch between four polynomial curves that meet in four corners.
+ * The bilinearly blended Coons patch between four curves that meet in four corners.
  *
  * curves: [4] along u at the start and the end of v, then along v at the start and the end of u.
  * Domains are those of the first of each pair.
  * Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
- * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that do not meet or are
- * rational.
+ * Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that do not meet, and
+ * for weights that fall so far below those of the ends that the blend has none above zero.
  */
 int32_t bladesmith_surface_coons(const bladesmith_curve *const *curves, bladesmith_surface **out);
 

@@ -104,6 +104,17 @@ public:
         });
     }
 
+    /** The closed curve, smooth at its seam, through points [n][dimension] at parameters [n + 1]. */
+    static Curve interpolate_closed(std::uint32_t dimension, std::uint32_t degree, View<double> parameters,
+                                    View<double> points)
+    {
+        const std::size_t count = parameters.size() > 0 ? parameters.size() - 1 : 0;
+        detail::require(points, dimension * count, "points");
+        return Curve([&](bladesmith_curve **out) {
+            return bladesmith_curve_interpolate_closed(dimension, degree, parameters.data(), points.data(), count, out);
+        });
+    }
+
     /** Points near which a curve over given knots shall run; the arrays must outlive it. */
     struct Samples {
         std::uint32_t dimension, degree;

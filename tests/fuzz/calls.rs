@@ -346,6 +346,24 @@ fn interpolate(source: &mut Source, pool: &mut Pool) -> i32 {
     status
 }
 
+fn interpolate_closed(source: &mut Source, pool: &mut Pool) -> i32 {
+    let (dimension, degree, count) = (source.dimension(), source.degree(), source.below(12));
+    let near = source.knots(1);
+    let mut t = parameters_of(source, &near, count + 1);
+    if !source.once_in(4) {
+        t.sort_by(f64::total_cmp);
+    }
+    let points = source.numbers(3 * count);
+    let mut out = null_mut();
+    // SAFETY: the arrays are as long as the header asks for.
+    let status = unsafe {
+        let (t, points) = (t.as_ptr(), points.as_ptr());
+        bladesmith_curve_interpolate_closed(dimension, degree, t, points, count, &mut out)
+    };
+    pool.keep_curve(source, out);
+    status
+}
+
 fn fit(source: &mut Source, pool: &mut Pool) -> i32 {
     let (dimension, degree, count) = (source.dimension(), source.degree(), source.below(30));
     let knots = source.knots(degree);
@@ -437,6 +455,7 @@ pub const CALLS: [Call; 32] = [
     ("curve_periodic", closed_curves),
     ("parameters, averaged_knots", parameters_of_points),
     ("curve_interpolate", interpolate),
+    ("curve_interpolate_closed", interpolate_closed),
     ("curve_fit, curve_smooth*", fit),
     ("curve_nearest*", nearest_on_curve),
     ("surface_new", make_surface),

@@ -275,6 +275,18 @@ class Made(unittest.TestCase):
             numpy.testing.assert_allclose(curve.points(t), points, atol=1e-13)
             numpy.testing.assert_allclose(curve.evaluate(0.0, 1)[0, 1], (0, 1), atol=1e-12)
 
+    def test_a_closed_curve_passes_its_points_and_is_smooth_at_the_seam(self):
+        points = [(3, 0, 0), (1, 2, 1), (-2, 1, 0), (-1, -2, 2), (2, -2, 1)]
+        t = native.parameters([*points, points[0]])
+        for degree in range(1, 5):
+            curve = Curve.interpolate_closed(degree, t, points)
+            start, end = curve.domain
+            self.assertAlmostEqual(end - start, t[-1], 14)
+            there = numpy.where(t[:-1] < start, t[:-1] + t[-1], t[:-1])
+            numpy.testing.assert_allclose(curve.points(there), points, atol=1e-12)
+            seam = curve.evaluate([start], degree - 1), curve.evaluate([end], degree - 1, below=True)
+            numpy.testing.assert_allclose(*seam, atol=1e-9)
+
     def test_fits_keep_their_ends(self):
         t = numpy.linspace(0, 1, 50)
         points = numpy.column_stack([t, numpy.sin(3 * t)])

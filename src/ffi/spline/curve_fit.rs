@@ -8,6 +8,7 @@ use crate::ffi::handle::Out;
 use crate::ffi::slice::{ArrayOut, slice};
 use crate::nurbs::KnotVector;
 use crate::ops::conditions::{Condition, interpolate, interpolate_over};
+use crate::ops::interpolate::interpolate_closed;
 use crate::ops::least_squares::{Sample, fit, smooth, smooth_within};
 use crate::ops::parametrise::{self, averaged_knots, parameters};
 
@@ -148,6 +149,39 @@ pub unsafe extern "C" fn bladesmith_curve_interpolate(
                 interpolate_over(unsafe { self::knots(degree, knots, knot_count, "knots")? }, &conditions)?
             };
             out.hand_over(curve.into());
+            Ok(())
+        })
+    })
+}
+
+/// The closed curve, smooth at its seam as everywhere, that passes points at parameters; its knots are
+/// periodic. Odd degrees have them at the parameters, even ones halfway between.
+///
+/// dimension: 2 or 3.
+/// degree: 1 to 25, less than count.
+/// parameters: [count + 1] ascending, the last where the first point is passed again.
+/// points: [count][dimension], the first not repeated.
+/// Units: mm.
+/// Owner: `*out` is the caller's, for bladesmith_curve_free(); written only on success.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_NUMERICS for parameters so uneven that they do
+/// not determine a curve.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn bladesmith_curve_interpolate_closed(
+    dimension: u32,
+    degree: u32,
+    parameters: *const f64,
+    points: *const f64,
+    count: usize,
+    out: *mut *mut Curve,
+) -> i32 {
+    guard(|| {
+        // SAFETY: the header states the lengths of the arrays and asks for room for a handle.
+        let (parameters, out) =
+            unsafe { (numbers(parameters, count.saturating_add(1), "parameters")?, Out::new(out, "out")?) };
+        by_dimension!(dimension, P => {
+            // SAFETY: as above.
+            let points = unsafe { P::rows(points, count, "points")? };
+            out.hand_over(interpolate_closed(degree as usize, parameters, points)?.into());
             Ok(())
         })
     })

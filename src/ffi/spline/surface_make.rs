@@ -64,13 +64,13 @@ pub unsafe extern "C" fn bladesmith_surface_revolved(
     })
 }
 
-/// The bilinearly blended Coons patch between four polynomial curves that meet in four corners.
+/// The bilinearly blended Coons patch between four curves that meet in four corners.
 ///
 /// curves: [4] along u at the start and the end of v, then along v at the start and the end of u.
 /// Domains are those of the first of each pair.
 /// Owner: `*out` is the caller's, for bladesmith_surface_free(); written only on success.
-/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that do not meet or are
-/// rational.
+/// Errors: BLADESMITH_STATUS_ARGUMENT; BLADESMITH_STATUS_SPLINE for curves that do not meet, and
+/// for weights that fall so far below those of the ends that the blend has none above zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn bladesmith_surface_coons(
     curves: *const *const Curve,

@@ -172,6 +172,17 @@ class Curve(Spline):
         )
 
     @classmethod
+    def interpolate_closed(cls, degree: int, t, points) -> "Curve":
+        """The closed curve, smooth at its seam, that passes ``points`` (n, d) at ``t`` (n + 1).
+
+        The last of ``t`` is where the first point is passed again.
+        """
+        points = _points(points, "points")
+        t = line(t, "t", len(points) + 1)
+        given = address(t), address(points), len(points)
+        return cls._made("interpolate_closed", points.shape[1], degree, *given)
+
+    @classmethod
     def fit(cls, degree: int, knots, t, points, *, weights=None, ends=((), ())) -> "Curve":
         """The weighted least squares curve over ``knots``.
 

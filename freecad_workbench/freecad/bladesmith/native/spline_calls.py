@@ -32,6 +32,7 @@ STATUS_CALLS = {
     "bladesmith_parameters": (_U, _A, _N, _U, _F, _A),
     "bladesmith_averaged_knots": (_U, _A, _N, _A),
     "bladesmith_curve_interpolate": (_U, _U, _A, _A, _A, _N, _A, _N, _OUT),
+    "bladesmith_curve_interpolate_closed": (_U, _U, _A, _A, _N, _OUT),
     "bladesmith_curve_fit": (*_SAMPLES, _A, _N, _A, _N, _OUT),
     "bladesmith_curve_smooth": (*_SAMPLES, _F, _OUT),
     "bladesmith_curve_smooth_within": (*_SAMPLES, _F, _A, _OUT),
