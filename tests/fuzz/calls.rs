@@ -441,7 +441,7 @@ pub fn read_table(table: *mut Table) {
 }
 
 /// All of them; those that make handles come more often.
-pub const CALLS: [Call; 32] = [
+pub const CALLS: [Call; 33] = [
     ("curve_new", make_curve),
     ("curve_new", make_curve),
     ("curve_evaluate", evaluate_curve),
