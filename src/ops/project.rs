@@ -12,6 +12,8 @@ use glam::{DVec2, DVec3};
 const PLACES: usize = 32;
 /// Halvings that find the end of a part.
 const HALVINGS: u32 = 50;
+/// Fraction of the tolerance to which the end of a part is found.
+const EXACT: f64 = 1e-3;
 /// Spans of a projected curve at most.
 const SPANS: usize = 2000;
 /// Degree of a projected curve.
@@ -162,6 +164,9 @@ impl Feet {
     fn end(&self, from: (f64, DVec2), t: f64) -> (f64, DVec2) {
         let (mut good, mut bad) = (from, t);
         for _ in 0..HALVINGS {
+            if self.curve.point(good.0).distance(self.curve.point(bad)) <= EXACT * self.tolerance {
+                break;
+            }
             let middle = 0.5 * (good.0 + bad);
             match self.foot(middle).map(|uv| (middle, uv)) {
                 Some(next) if self.is_steady(good, next) => good = next,
