@@ -284,7 +284,10 @@ class Made(unittest.TestCase):
             self.assertAlmostEqual(end - start, t[-1], 14)
             there = numpy.where(t[:-1] < start, t[:-1] + t[-1], t[:-1])
             numpy.testing.assert_allclose(curve.points(there), points, atol=1e-12)
-            seam = curve.evaluate([start], degree - 1), curve.evaluate([end], degree - 1, below=True)
+            seam = (
+                curve.evaluate([start], degree - 1),
+                curve.evaluate([end], degree - 1, below=True),
+            )
             numpy.testing.assert_allclose(*seam, atol=1e-9)
 
     def test_fits_keep_their_ends(self):
