@@ -140,7 +140,7 @@ pub fn parameters_of(source: &mut Source, knots: &[f64], count: usize) -> Vec<f6
     (0..count).map(|_| parameter(source, knots)).collect()
 }
 
-fn knots_of(curve: *const Curve) -> Vec<f64> {
+pub fn knots_of(curve: *const Curve) -> Vec<f64> {
     let (_, degree, count) = curve_size(curve);
     let mut knots = room(count + degree + 1);
     // SAFETY: the array is as long as the header asks for.
@@ -365,9 +365,15 @@ fn interpolate_closed(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 fn fit(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (dimension, degree, count) = (source.dimension(), source.degree(), source.below(30));
+    let (dimension, degree, mut count) = (source.dimension(), source.degree(), source.below(30));
     let knots = source.knots(degree);
-    let t = parameters_of(source, &knots, count);
+    let mut t = parameters_of(source, &knots, count);
+    if !source.once_in(3) {
+        // As a rule there are enough of them all over the knots.
+        let (a, b) = (knots[0], knots[knots.len() - 1]);
+        count = 4 * knots.len();
+        t = (0..count).map(|i| a + (b - a) * (i as f64 + 0.5) / count as f64).collect();
+    }
     let (points, weights) = (source.numbers(3 * count), source.weights(count));
     let (start, end) = (source.numbers(9), source.numbers(9));
     let (at_start, at_end) = (source.below(4), source.below(4));

@@ -30,7 +30,8 @@ pub fn coarse(source: &mut Source) -> f64 {
 }
 
 pub fn round_corners(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (curve, other, radius) = (pool.curve(source), pool.curve(source), source.number());
+    let (curve, other) = (pool.curve(source), pool.curve(source));
+    let radius = if source.once_in(4) { source.number() } else { 0.01 + source.unit() };
     let (near, within) = (source.numbers(2), coarse(source));
     let (mut list, mut table) = (null_mut(), null_mut());
     let near = if source.once_in(2) { null() } else { near.as_ptr() };

@@ -1,6 +1,6 @@
 //! Calls that find where shapes meet, and offsets.
 
-use super::calls::{Pool, read_table, room, tolerance};
+use super::calls::{Pool, knots_of, parameters_of, read_table, room, tolerance};
 use super::cuts::{coarse, take_one};
 use super::source::Source;
 use bladesmith::ffi::spline::intersect::*;
@@ -65,9 +65,18 @@ pub fn offset_surface(source: &mut Source, pool: &mut Pool) -> i32 {
 }
 
 pub fn map_to_offset(source: &mut Source, pool: &mut Pool) -> i32 {
-    let (pieces, t) = (source.numbers(10), source.numbers(4));
+    let (mut pieces, t, curve) = (source.numbers(10), source.numbers(4), pool.curve(source));
+    if !source.once_in(4) {
+        // What was kept of the curve, as a rule.
+        let knots = knots_of(curve);
+        for row in pieces.chunks_mut(5) {
+            let mut kept = parameters_of(source, &knots, 2);
+            kept.sort_by(f64::total_cmp);
+            row[3..].copy_from_slice(&kept);
+        }
+    }
     let (count, mut out) = (source.below(3), room(4));
-    let (rows, t, curve) = (pieces.as_ptr(), t.as_ptr(), pool.curve(source));
+    let (rows, t) = (pieces.as_ptr(), t.as_ptr());
     // SAFETY: the arrays are as long as the header asks for.
     unsafe { bladesmith_curve_offset_map(curve, rows, count, t, 4, out.as_mut_ptr()) }
 }
