@@ -56,6 +56,8 @@ fn check_plane(section: &Section, surface: &NurbsSurface, origin: DVec3, normal:
     let [o, x, y] = section.axes.unwrap();
     for (k, branch) in section.branches.iter().enumerate() {
         assert!(branch.deviation_mm <= tolerance, "{k}: {}", branch.deviation_mm);
+        let (start, end) = branch.curve.knots().domain();
+        assert!(end - start > tolerance, "branch {k} is a point, {} mm long", end - start);
         for (p, [a, b]) in samples(branch, 2003) {
             let on = surface.point(a.x, a.y);
             assert!(on.distance(p) <= 1.1 * tolerance, "{k}: {p} is {} off the surface", on.distance(p));
@@ -179,6 +181,25 @@ fn a_plane_on_top_of_a_torus_touches_along_a_circle() {
     assert!(found.branches.iter().all(|b| b.touching), "{:?}", found.branches.len());
     let got = length(&found, tolerance);
     assert!((got - TAU * 3.0).abs() < 1e-5, "{got}, not {}", TAU * 3.0);
+}
+
+/// Many knot lines pass the branches within a rounding error or so of a seed.
+#[test]
+fn seeds_beside_knot_lines_make_no_branches_of_their_own() {
+    let knots = |poles: usize| {
+        let at = |i: usize| i as f64 / (poles - 3) as f64;
+        KnotVector::clamped(3, &(0..=poles - 3).map(at).collect::<Vec<_>>()).unwrap()
+    };
+    let (ku, kv) = (knots(60), knots(40));
+    let pole =
+        |u: f64, v: f64| DVec3::new(100.0 * u, 60.0 * v, 3.0 * (9.0 * u).sin() * (6.0 * v + 0.5).cos());
+    let (us, vs) = (ku.greville(), kv.greville());
+    let poles = us.iter().flat_map(|&u| vs.iter().map(move |&v| pole(u, v))).collect();
+    let sheet = NurbsSurface::new(ku, kv, poles, None).unwrap();
+    let (origin, normal) = (DVec3::new(50.0, 30.0, 0.3), DVec3::new(0.01, 0.02, 1.0));
+    let found = section::with_plane(&sheet, origin, normal, 1e-6).unwrap();
+    check_plane(&found, &sheet, origin, normal, 1e-6);
+    assert_eq!(found.branches.len(), 4, "waves between borders");
 }
 
 #[test]

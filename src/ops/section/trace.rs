@@ -96,9 +96,10 @@ impl Tracer<'_> {
         };
         let start = Target::new(at, x);
         let longest = 0.1 * self.pair.size;
-        let mut h = (0.2 / from.bend.length()).min(longest);
+        let (mut h, mut gone) = ((0.2 / from.bend.length()).min(longest), 0.0);
         while segments.len() < LONGEST && !self.pair.is_spent() {
-            let closing = (!segments.is_empty()).then_some(&start);
+            // Beside a line between cells the first step may be rounding, with the start on any side.
+            let closing = (gone > SHORTEST * self.pair.size).then_some(&start);
             match self.step(&from, &cells, h, closing) {
                 Step::End(piece, end) => {
                     segments.push(piece);
@@ -106,6 +107,7 @@ impl Tracer<'_> {
                 }
                 Step::Piece(piece) => {
                     segments.push(piece);
+                    gone += piece.length;
                     let ease = (self.pair.tolerance / piece.deviation).powf(1.0 / 6.0);
                     h = (piece.length * (0.8 * ease).clamp(0.5, 2.5)).min(longest);
                     match self.enter(&cells, piece.to.at, piece.to.x, piece.to.tangent) {
