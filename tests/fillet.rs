@@ -189,6 +189,28 @@ fn random_curve(random: &mut Random, from: DVec2, along: DVec2) -> Curve {
     NurbsCurve::new(knots, poles, weights).unwrap()
 }
 
+/// A line and a curve at a narrow angle, whose one fillet was once missed.
+#[test]
+fn a_fillet_close_along_its_line_is_found() {
+    let start = (0.783282516831515, -0.6981430793871708);
+    let first = line(start, (-0.5957192224516705, 4.373926658800635));
+    let poles = [
+        start,
+        (-0.16596709582803326, 0.253103649342618),
+        (-2.0291273127564207, -0.59990403577008),
+        (-3.3544280244115345, 0.5142926230513081),
+        (-5.6796560028479535, 2.073280089676378),
+    ];
+    let knots = KnotVector::clamped(2, &[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]).unwrap();
+    let second = Curve::new(knots, poles.map(DVec2::from).to_vec(), None).unwrap();
+    let found = fillets(&first, &second, 1.0626809468575926, 1e-8).unwrap();
+    assert_eq!(found.len(), 1, "{found:?}");
+    check("corner", [&first, &second], &found[0]);
+    assert_eq!(found[0].sides, [1.0, -1.0]);
+    let expected = DVec2::new(-0.78145006, 1.00655339);
+    assert!(found[0].centre.distance(expected) < 1e-7, "{}", found[0].centre);
+}
+
 #[test]
 fn random_corners_have_exactly_the_fillets_that_sampling_finds() {
     let mut random = Random(7);
