@@ -2,6 +2,8 @@
 //
 // Fillets, sections, projections, offsets, batches and closed curves against closed forms.
 
+#include "expect.hpp"
+
 #include <bladesmith/bladesmith.hpp>
 
 #include <cmath>
@@ -11,32 +13,6 @@
 using bladesmith::Curve, bladesmith::Direction, bladesmith::Error, bladesmith::Surface;
 
 static_assert(std::is_nothrow_move_constructible_v<bladesmith::Fillet> && !std::is_copy_constructible_v<bladesmith::Branch>);
-
-static int failures = 0;
-
-static void expect(bool holds, const std::string &what)
-{
-    if (!holds) {
-        std::cerr << "does not hold: " << what << '\n';
-        failures++;
-    }
-}
-
-static void expect_near(double value, double expected, const std::string &what, double tolerance = 1e-9)
-{
-    expect(std::abs(value - expected) < tolerance, what + ": " + std::to_string(value) + " is not " + std::to_string(expected));
-}
-
-template <class Call> static void expect_error(std::int32_t status, const std::string &part, Call call)
-{
-    try {
-        call();
-        expect(false, "an error that says '" + part + "'");
-    } catch (const Error &error) {
-        expect(error.status() == status && std::string(error.what()).find(part) != std::string::npos,
-               "status " + std::to_string(status) + " with '" + part + "' in: " + error.what());
-    }
-}
 
 static const double PI = std::acos(-1.0);
 
